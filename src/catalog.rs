@@ -203,6 +203,12 @@ macro_rules! effects {
                 self.present.iter().any(EffectId::has_state)
             }
 
+            /// The sample that acts, where an effect says that the sensors show another one.
+            #[inline]
+            pub fn acting(&self, sample: &Sample<S::Plain>) -> Option<Sample<S::Plain>> {
+                None$(.or_else(|| self.$id.as_ref().and_then(|effect| effect.acting(sample))))+
+            }
+
             /// Applies the effects to the split, in their order.
             #[inline]
             pub fn apply(

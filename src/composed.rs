@@ -314,6 +314,8 @@ impl<S: Real> Composed<S> {
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
+        let acting = self.effects.acting(sample);
+        let sample = acting.as_ref().unwrap_or(sample);
         let split = self.law.split(sample, &self.constants);
         if self.effects.is_empty() && self.formula.is_none() {
             return split;
@@ -342,7 +344,10 @@ impl<S: Real> Composed<S> {
     #[inline(always)]
     #[must_use]
     pub(crate) fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
-        self.bristle.or_else(|| self.law.bristle(sample, &self.constants))
+        self.bristle.or_else(|| {
+            let acting = self.effects.acting(sample);
+            self.law.bristle(acting.as_ref().unwrap_or(sample), &self.constants)
+        })
     }
 
     /// The equation of the deflection through which dry friction acts, if the state is a single
@@ -355,7 +360,10 @@ impl<S: Real> Composed<S> {
     {
         match &self.bristle {
             Some(bristle) => Some(bristle.deflection(sample.velocity)),
-            None => self.law.deflection(sample, &self.constants),
+            None => {
+                let acting = self.effects.acting(sample);
+                self.law.deflection(acting.as_ref().unwrap_or(sample), &self.constants)
+            }
         }
     }
 
@@ -413,6 +421,9 @@ impl<S: Real> Composed<S> {
     /// mean is the real one, which does the work.
     #[inline]
     pub fn step_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
+        let acting = self.effects.acting(&interval.sample);
+        let acting = acting.map(|sample| Interval { sample, ..*interval });
+        let interval = acting.as_ref().unwrap_or(interval);
         let split = if self.has_state {
             self.split_over(state, interval)
         } else {

@@ -14,6 +14,8 @@ pub struct Sample<S> {
     pub acceleration: S,
     /// Joint temperature `T` (degC).
     pub temperature: S,
+    /// Time derivative of the temperature (K/s).
+    pub temperature_rate: S,
     /// Load torque `tl` (T): all torque at the joint except friction.
     pub load_torque: S,
     /// Second time derivative of the load torque (T/s2).
@@ -37,6 +39,7 @@ impl<S: Copy> Sample<S> {
             Channel::Position => self.position,
             Channel::Acceleration => self.acceleration,
             Channel::Temperature => self.temperature,
+            Channel::TemperatureRate => self.temperature_rate,
             Channel::LoadTorque => self.load_torque,
             Channel::LoadTorqueCurvature => self.load_torque_curvature,
             Channel::MotorTorque => self.motor_torque,
@@ -56,6 +59,7 @@ impl<S> Sample<S> {
             position: channel(Channel::Position),
             acceleration: channel(Channel::Acceleration),
             temperature: channel(Channel::Temperature),
+            temperature_rate: channel(Channel::TemperatureRate),
             load_torque: channel(Channel::LoadTorque),
             load_torque_curvature: channel(Channel::LoadTorqueCurvature),
             motor_torque: channel(Channel::MotorTorque),
@@ -76,6 +80,7 @@ impl<S: Real> Sample<S> {
             position: zero,
             acceleration: zero,
             temperature: zero,
+            temperature_rate: zero,
             load_torque: zero,
             load_torque_curvature: zero,
             motor_torque: zero,

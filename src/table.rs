@@ -13,6 +13,7 @@ pub enum Channel {
     Position,
     Acceleration,
     Temperature,
+    TemperatureRate,
     LoadTorque,
     LoadTorqueCurvature,
     MotorTorque,
@@ -22,11 +23,12 @@ pub enum Channel {
 
 impl Channel {
     /// All channels.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Velocity,
         Self::Position,
         Self::Acceleration,
         Self::Temperature,
+        Self::TemperatureRate,
         Self::LoadTorque,
         Self::LoadTorqueCurvature,
         Self::MotorTorque,
@@ -42,6 +44,7 @@ impl Channel {
             Self::Position => "position",
             Self::Acceleration => "acceleration",
             Self::Temperature => "temperature",
+            Self::TemperatureRate => "temperature_rate",
             Self::LoadTorque => "load_torque",
             Self::LoadTorqueCurvature => "load_torque_curvature",
             Self::MotorTorque => "motor_torque",
@@ -58,6 +61,7 @@ impl Channel {
             Self::Position => "X",
             Self::Acceleration => "X/s2",
             Self::Temperature => "degC",
+            Self::TemperatureRate => "K/s",
             Self::LoadTorque | Self::MotorTorque | Self::ExternalTorque => "T",
             Self::LoadTorqueCurvature => "T/s2",
             Self::Time => "s",
@@ -106,6 +110,8 @@ pub enum Scale {
     SquareTime,
     /// The median time step.
     SamplePeriod,
+    /// The time from the first to the last sample of a run.
+    Duration,
 }
 
 impl Scale {
@@ -129,6 +135,7 @@ impl Scale {
             Self::Time => "time",
             Self::SquareTime => "square_time",
             Self::SamplePeriod => "sample_period",
+            Self::Duration => "duration",
         }
     }
 }

@@ -172,6 +172,7 @@ fn all_static_effects_combined() {
         temperature: 40.0,
         load_torque: -7.5,
         load_torque_curvature: 0.0,
+        temperature_rate: 0.0,
         motor_torque: 0.0,
         external_torque: 0.0,
         time: 0.0,
@@ -215,6 +216,7 @@ fn at_one_sample(effects: &[&str], values: &[f64]) -> f64 {
         position: 0.9,
         load_torque: -7.5,
         load_torque_curvature: 11.0,
+        temperature_rate: 0.1,
         time: 31.0,
         ..Sample::at(-0.25)
     };
@@ -235,6 +237,24 @@ fn effects_of_time_and_position() {
 fn elasticity_follows_the_second_derivative_of_the_load() {
     close(at_one_sample(&["elasticity"], &[0.004]), -5.456, 1e-15);
     close(at_one_sample(&["elasticity"], &[-0.03]), -5.83, 1e-15);
+}
+
+#[test]
+fn friction_follows_the_contacts_where_the_thermometer_lags() {
+    let effects = ["temperature_dry", "temperature_viscous", "thermometer_lag"];
+    let values = [2.0, 5.0, 0.01, 0.02, 0.03, 0.04, 12.0];
+    let shown = Sample { temperature: 40.0, temperature_rate: 0.25, ..Sample::at(-0.25) };
+    let contacts = Sample { temperature: 43.0, ..Sample::at(-0.25) };
+    let lagging = Spec::new("coulomb", effects).unwrap().with(&values).unwrap();
+    let exact = Spec::new("coulomb", effects[..2].iter().copied()).unwrap();
+    let exact = exact.with(&values[..6]).unwrap();
+    assert_eq!(lagging.static_torque(&shown), exact.static_torque(&contacts));
+    let (mut one, mut other) = (State::default(), State::default());
+    assert_eq!(
+        lagging.step(&mut one, &shown, 0.01).torque,
+        exact.step(&mut other, &contacts, 0.01).torque
+    );
+    assert_ne!(lagging.static_torque(&shown), exact.static_torque(&shown));
 }
 
 #[test]

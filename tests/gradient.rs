@@ -14,7 +14,13 @@ fn gradient_is_the_derivative_of_every_model() {
     smooth.smooth.velocity = &motion.acceleration;
     smooth.smooth.load_torque = Some(&motion.temperature);
     for columns in [motion.columns(), smooth] {
-        for spec in every_model() {
+        let mut specs = every_model();
+        // A lag changes friction that depends on temperature: side by side, and with a state.
+        for own in [&["temperature_dry"][..], &["stribeck", "frictional_lag", "temperature_dry"]] {
+            let effects = own.iter().chain(&["thermometer_lag"]).copied();
+            specs.push(Spec::new("coulomb", effects).unwrap());
+        }
+        for spec in specs {
             let values = values(&spec);
             let (torque, jacobian) = batch::gradient(&spec, &values, &columns, None).unwrap();
             assert_eq!(torque, batch::torque(&spec, &values, &columns).unwrap(), "{spec}");

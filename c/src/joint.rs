@@ -75,6 +75,8 @@ pub struct StribeckSample<S> {
     pub external_torque: S,
     /// Time since the start (s).
     pub time: S,
+    /// Time derivative of the temperature (K/s).
+    pub temperature_rate: S,
 }
 
 impl<S: Scalar<Plain = S>> StribeckSample<S> {
@@ -89,6 +91,7 @@ impl<S: Scalar<Plain = S>> StribeckSample<S> {
             motor_torque: self.motor_torque,
             external_torque: self.external_torque,
             time: self.time,
+            temperature_rate: self.temperature_rate,
         }
     }
 }

@@ -73,6 +73,7 @@ fn an_uninitialised_joint_is_refused() {
         temperature: 0.0,
         load_torque: 0.0,
         load_torque_curvature: 0.0,
+        temperature_rate: 0.0,
         motor_torque: 0.0,
         external_torque: 0.0,
         time: 0.0,

@@ -327,6 +327,7 @@ class Model:
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
+        temperature_rate: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
@@ -349,6 +350,7 @@ class Model:
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
+        temperature_rate: ArrayLike | None = None,
         smooth: Mapping[str, ArrayLike] | None = None,
         shift_load: bool = True,
         mean_velocity: ArrayLike | None = None,
@@ -370,4 +372,5 @@ class Model:
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
+        temperature_rate: ArrayLike | None = None,
     ) -> dict[str, NDArray[np.float64]]: ...

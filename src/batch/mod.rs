@@ -1,6 +1,7 @@
 //! Models over whole recordings: torque, gradient, parts of the torque.
 
 mod balance;
+mod by_temperature;
 mod columns;
 mod compiled;
 mod delay;

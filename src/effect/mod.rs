@@ -24,6 +24,7 @@ mod spring;
 mod stribeck;
 mod temperature_dry;
 mod temperature_viscous;
+mod thermometer_lag;
 mod warm_up;
 
 /// Every effect as `file: Type`, in the order in which they act: the one list of them.
@@ -54,6 +55,8 @@ macro_rules! every_effect {
             saturation: Saturation,
             gain: Gain,
             warm_up: WarmUp,
+            // Of a channel that the law reads, whatever it does with it.
+            thermometer_lag: ThermometerLag,
             delay: Delay,
         }
     };
@@ -80,6 +83,13 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
 
     /// Whether it has a state, separate from that of a bristle.
     const HAS_STATE: bool = false;
+
+    /// The sample that acts, where the sensors show another one. The derivatives of what it changes
+    /// with respect to parameters are taken on recordings, by `batch`.
+    #[inline]
+    fn acting(&self, _sample: &Sample<S::Plain>) -> Option<Sample<S::Plain>> {
+        None
+    }
 
     /// Changes the split. Effects that do not act on it (a bristle, a gain, a delay) leave it
     /// unchanged.

@@ -275,6 +275,7 @@ impl Formula {
             temperature: 30.0 + sign * 8.8813,
             load_torque: sign * 2.7193,
             load_torque_curvature: 0.0,
+            temperature_rate: 0.0,
             motor_torque: sign * 3.1871,
             external_torque: sign * 1.9177,
             time: 0.0,

@@ -51,6 +51,7 @@ const SAMPLE: Sample<f64> = Sample {
     temperature: 31.0,
     load_torque: -4.0,
     load_torque_curvature: 0.0,
+    temperature_rate: 0.0,
     motor_torque: 5.0,
     external_torque: 0.7,
     time: 0.0,

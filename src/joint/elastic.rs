@@ -170,6 +170,7 @@ impl<P: Scalar + PartialOrd> Body<P> for MovingElastic<'_, P> {
             temperature: self.push.temperature,
             load_torque: self.joint.motor_inertia * acceleration + pull,
             load_torque_curvature: P::zero(),
+            temperature_rate: P::zero(),
             motor_torque: self.push.motor,
             external_torque: -pull,
             time: load.time,

@@ -104,6 +104,7 @@ impl<P: Scalar + PartialOrd> Body<P> for Moving<'_, P> {
             temperature: self.push.temperature,
             load_torque: self.joint.inertia * acceleration + gravity - external,
             load_torque_curvature: P::zero(),
+            temperature_rate: P::zero(),
             motor_torque: self.push.motor,
             external_torque: external - gravity,
             time: self.push.time + self.elapsed + h * half,

@@ -79,6 +79,7 @@ fn contains_its_points(spec: &Spec, values: &[f64]) {
                 temperature: inside(Channel::Temperature),
                 load_torque: inside(Channel::LoadTorque),
                 load_torque_curvature: inside(Channel::LoadTorqueCurvature),
+                temperature_rate: inside(Channel::TemperatureRate),
                 motor_torque: inside(Channel::MotorTorque),
                 external_torque: inside(Channel::ExternalTorque),
                 time: inside(Channel::Time),

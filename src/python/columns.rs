@@ -86,6 +86,8 @@ pub(super) struct Arguments<'py> {
     #[pyo3(default)]
     pub temperature: Option<Array<'py>>,
     #[pyo3(default)]
+    pub temperature_rate: Option<Array<'py>>,
+    #[pyo3(default)]
     pub load_torque: Option<Array<'py>>,
     #[pyo3(default)]
     pub load_torque_curvature: Option<Array<'py>>,
@@ -121,6 +123,7 @@ impl Arguments<'_> {
         let position = self.position.as_ref().map(contiguous);
         let acceleration = self.acceleration.as_ref().map(contiguous);
         let temperature = self.temperature.as_ref().map(contiguous);
+        let temperature_rate = self.temperature_rate.as_ref().map(contiguous);
         let load_torque = self.load_torque.as_ref().map(contiguous);
         let load_torque_curvature = self.load_torque_curvature.as_ref().map(contiguous);
         let motor_torque = self.motor_torque.as_ref().map(contiguous);
@@ -152,6 +155,7 @@ impl Arguments<'_> {
                 position: position.as_deref(),
                 acceleration: acceleration.as_deref(),
                 temperature: temperature.as_deref(),
+                temperature_rate: temperature_rate.as_deref(),
                 load_torque: load_torque.as_deref(),
                 load_torque_curvature: load_torque_curvature.as_deref(),
                 motor_torque: motor_torque.as_deref(),
@@ -163,6 +167,7 @@ impl Arguments<'_> {
                 position: smooth(Channel::Position),
                 acceleration: smooth(Channel::Acceleration),
                 temperature: smooth(Channel::Temperature),
+                temperature_rate: smooth(Channel::TemperatureRate),
                 load_torque: smooth(Channel::LoadTorque),
                 load_torque_curvature: smooth(Channel::LoadTorqueCurvature),
                 motor_torque: smooth(Channel::MotorTorque),

@@ -143,7 +143,7 @@ impl Model {
     /// result that is not finite is refused where `what` names it.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
-        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false, out=None, what=None))]
+        load_torque_curvature=None, temperature_rate=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, single=false, out=None, what=None))]
     #[allow(clippy::too_many_arguments)]
     fn torque<'py>(
         &self,
@@ -159,6 +159,7 @@ impl Model {
         external_torque: Option<Array<'py>>,
         time: Option<Array<'py>>,
         load_torque_curvature: Option<Array<'py>>,
+        temperature_rate: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
@@ -179,6 +180,7 @@ impl Model {
             external_torque,
             time,
             load_torque_curvature,
+            temperature_rate,
             smooth,
             shift_load,
             mean_velocity,
@@ -206,7 +208,7 @@ impl Model {
     /// is given. Derivatives that are not finite are refused where `what` names them.
     #[pyo3(signature = (values, dt, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
-        load_torque_curvature=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None, out=None, what=None))]
+        load_torque_curvature=None, temperature_rate=None, smooth=None, shift_load=true, mean_velocity=None, state=None, *, wanted=None, out=None, what=None))]
     #[allow(clippy::too_many_arguments, clippy::type_complexity)]
     fn gradient<'py>(
         &self,
@@ -222,6 +224,7 @@ impl Model {
         external_torque: Option<Array<'py>>,
         time: Option<Array<'py>>,
         load_torque_curvature: Option<Array<'py>>,
+        temperature_rate: Option<Array<'py>>,
         smooth: Option<BTreeMap<String, Array<'py>>>,
         shift_load: bool,
         mean_velocity: Option<Array<'py>>,
@@ -242,6 +245,7 @@ impl Model {
             external_torque,
             time,
             load_torque_curvature,
+            temperature_rate,
             smooth,
             shift_load,
             mean_velocity,
@@ -270,7 +274,7 @@ impl Model {
     /// Parts of the torque in steady sliding: dict of `dry`, `rate` and `additive`.
     #[pyo3(signature = (values, velocity, position=None, acceleration=None, temperature=None,
         load_torque=None, motor_torque=None, external_torque=None, time=None,
-        load_torque_curvature=None))]
+        load_torque_curvature=None, temperature_rate=None))]
     #[allow(clippy::too_many_arguments)]
     fn split<'py>(
         &self,
@@ -285,6 +289,7 @@ impl Model {
         external_torque: Option<Array<'py>>,
         time: Option<Array<'py>>,
         load_torque_curvature: Option<Array<'py>>,
+        temperature_rate: Option<Array<'py>>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let values = contiguous(&values);
         let arguments = Arguments {
@@ -298,6 +303,7 @@ impl Model {
             external_torque,
             time,
             load_torque_curvature,
+            temperature_rate,
             smooth: None,
             shift_load: true,
             mean_velocity: None,

@@ -157,6 +157,7 @@ pub(super) fn work(
                 position: at(Channel::Position),
                 acceleration: at(Channel::Acceleration),
                 temperature: at(Channel::Temperature),
+                temperature_rate: at(Channel::TemperatureRate),
                 load_torque: at(Channel::LoadTorque),
                 load_torque_curvature: at(Channel::LoadTorqueCurvature),
                 motor_torque: at(Channel::MotorTorque),

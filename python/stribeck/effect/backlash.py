@@ -18,6 +18,7 @@ from stribeck.effect.columns import hats, time_since_sign_change
 from stribeck.effect.facts import RecordingFacts, sign_changes
 from stribeck.effect.load import UNKNOWN_LOAD
 from stribeck.effect.presliding import FEWEST_REVERSALS, NO_REVERSALS
+from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
 
@@ -79,7 +80,7 @@ def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
     }
 
 
-def _cannot_hide(load: Array) -> str | None:
+def _cannot_hide(model: Model, load: Array) -> str | None:
     if load.min() < 0.0 < load.max():
         return None
     return (

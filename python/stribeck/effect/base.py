@@ -209,7 +209,10 @@ class Effect:
         Whether the effect acts as torque, distorts the measurement only, or describes a drive
         train by what it does to a recorded load torque.
     cannot_hide
-        Why the effect cannot be hidden in a generated recording, given its load torque [n].
+        Why the effect cannot be hidden in a generated recording, given the hidden model and the
+        load torque [n].
+    shown_beside
+        An effect without which it has no influence, to show it with.
     """
 
     id: str
@@ -232,7 +235,8 @@ class Effect:
     part_of: str | None = None
     design_note: str = ""
     in_motion: InMotion = "acts"
-    cannot_hide: Callable[[Array], str | None] = _nothing
+    cannot_hide: Callable[[Model, Array], str | None] = _nothing
+    shown_beside: str | None = None
 
 
 def number(value: float, digits: int = 3) -> str:

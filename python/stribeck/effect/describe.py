@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from stribeck.effect.base import Identified, number
 from stribeck.effect.registry import of_catalog
-from stribeck.models.catalog import catalog, effect_row
+from stribeck.models.catalog import catalog, effect_row, simpler_effect
 from stribeck.models.model import Model
 
 #: Groups of the catalog whose cause is not friction.
@@ -33,6 +33,18 @@ def is_friction(effect: str) -> bool:
     """Whether the cause is friction; an effect by formula is assumed to be."""
     row = effect_row(effect)
     return row is None or row["group"] not in NOT_FRICTION
+
+
+def base_of(effect: str) -> tuple[str, ...]:
+    """The effect beside which another one shows: the simpler one that it contains or acts on.
+
+    Examples
+    --------
+    >>> base_of("frictional_lag"), base_of("load")
+    (('stribeck',), ())
+    """
+    base = simpler_effect(effect) or of_catalog(effect).shown_beside
+    return () if base is None else (base,)
 
 
 def physically(effect: str, model: Model) -> str:

@@ -49,7 +49,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     )
 
 
-def _refusal(model: Model, recording: Recording) -> str | None:
+def _without_curve(model: Model, _: Recording | Array) -> str | None:
     # A lag of the Stribeck curve needs the curve, of the law or of the other effect.
     if model.has("stribeck"):
         return None
@@ -112,8 +112,9 @@ EFFECT = Effect(
     obstacle=_obstacle,
     where=_where,
     plausible=_plausible,
-    refusal=_refusal,
+    refusal=_without_curve,
     flexible_shape=_flexible_shape,
     size_range=(10.0, 1e-2),
     unresolved=_unresolved,
+    cannot_hide=_without_curve,
 )

@@ -21,6 +21,7 @@ _USUAL: dict[str, tuple[float, float]] = {
     "position": (-math.pi, math.pi),
     "acceleration": (-10.0, 10.0),
     "temperature": (20.0, 50.0),
+    "temperature_rate": (-0.1, 0.1),
     "load_torque": (-10.0, 10.0),
     "motor_torque": (-15.0, 15.0),
     "external_torque": (-10.0, 10.0),

@@ -95,6 +95,7 @@ class Problem:
             "external_torque": r.external_torque,
             "time": r.elapsed,
             "load_torque_curvature": self._load_curvature,
+            "temperature_rate": self._temperature_rate,
             **({} if self.model.drive is None else {"enabled": r.enabled}),
             "mean_velocity": self._mean_velocity if self.model.has_state else None,
         }
@@ -105,6 +106,13 @@ class Problem:
         if "elasticity" not in self.model.effects:
             return None
         return self.recording.load_torque_curvature
+
+    @cached_property
+    def _temperature_rate(self) -> Array | None:
+        """Derivative of the temperature, for models that read it, array [n]."""
+        if "thermometer_lag" not in self.model.effects:
+            return None
+        return self.recording.temperature_rate
 
     @cached_property
     def _motor_sign(self) -> Array | None:

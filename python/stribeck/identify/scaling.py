@@ -53,6 +53,7 @@ def scale_values(recording: Recording) -> dict[str, float]:
         "time": speed / acceleration,
         "square_time": (speed / acceleration) ** 2,
         "sample_period": s["sample_period"] or 1.0,
+        "duration": s["duration"] or 1.0,
         **drive_scales(recording),
     }
 

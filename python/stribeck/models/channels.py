@@ -27,6 +27,7 @@ OTHER_CHANNELS = (
     "external_torque",
     "time",
     "load_torque_curvature",
+    "temperature_rate",
 )
 
 
@@ -43,6 +44,7 @@ class Columns(TypedDict):
     external_torque: Array | None
     time: Array | None
     load_torque_curvature: Array | None
+    temperature_rate: Array | None
 
 
 def columns(
@@ -93,6 +95,7 @@ def columns(
         "external_torque": external,
         "time": filled("time"),
         "load_torque_curvature": filled("load_torque_curvature"),
+        "temperature_rate": filled("temperature_rate"),
     }
 
 
@@ -105,7 +108,7 @@ def split_columns(
     """The channels at which a steady torque is asked for, all of the longest one's length.
 
     A channel that is not given is at the middle of the operating `box`; the time is at the middle
-    of the recording, the second derivative of the load is 0.
+    of the recording, the derivatives of load and temperature are 0.
     """
     found = {"velocity": column(np.atleast_1d(velocity))}
     for name in OTHER_CHANNELS:
@@ -122,7 +125,7 @@ def _usual(core: _core.Model, name: str, box: Mapping[str, tuple[float, float]])
     """The value of a channel that is not given; None where the model does without."""
     if name == "time" and name in core.needs:
         return 0.5 * core.constants["duration"]
-    if name == "load_torque_curvature" and name in core.needs:
+    if name in ("load_torque_curvature", "temperature_rate") and name in core.needs:
         return 0.0
     return 0.5 * sum(box[name]) if name in box else None
 

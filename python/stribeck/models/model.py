@@ -279,6 +279,7 @@ class Model(Shown):
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
+        temperature_rate: ArrayLike | None = None,
         precision: Literal["double", "single"] = "double",
         out: Array | None = None,
     ) -> Array:
@@ -293,20 +294,18 @@ class Model(Shown):
             the end of a step with velocity[i] held.
         state : float or array [state_size]
             State at the start: the deflection of a bristle in rad or m; for gms and leuven the
-            force of each element, for bliman_sorine the fast and the slow force, in N m or N. The
-            default is zero deflection.
+            force of each element, for bliman_sorine the fast and the slow force, in N m or N.
         external_torque : array [n]
-            Torque of the environment on the joint, for the servo laws; default: minus the load
-            torque, which is correct without acceleration.
+            Of the environment on the joint, for the servo laws; default: minus the load torque.
         time : array [n]
             Time since the start of the recording in s, for `drift`.
-        load_torque_curvature : array [n]
-            Second derivative of the load torque by time, N m/s2 or N/s2, for `elasticity`.
+        load_torque_curvature, temperature_rate : array [n]
+            Second derivative of the load torque by time, N m/s2 or N/s2, for `elasticity`; first
+            derivative of the temperature by time, K/s, for `thermometer_lag`.
         precision
             ``"single"`` gives the bits of a controller that computes in 32 bits.
         out : array [n]
-            float64, contiguous: receives the torque and is returned, which saves fresh memory. It
-            shares none with the channels; after an error its content is unspecified.
+            float64, contiguous, none of the channels: receives the torque and is returned.
 
         Returns
         -------
@@ -320,7 +319,7 @@ class Model(Shown):
             A channel that the model reads is missing.
         """
         given = [position, acceleration, temperature, load_torque, motor_torque]
-        given += [external_torque, time, load_torque_curvature]
+        given += [external_torque, time, load_torque_curvature, temperature_rate]
         read = columns(self.core, velocity, dt, given)
         return evaluate.torque(
             self.core, self.spec, self.known_values(), read, state, precision, out
@@ -341,11 +340,12 @@ class Model(Shown):
         external_torque: ArrayLike | None = None,
         time: ArrayLike | None = None,
         load_torque_curvature: ArrayLike | None = None,
+        temperature_rate: ArrayLike | None = None,
         out: Array | None = None,
     ) -> Array:
         """Derivatives of `torque` with respect to the parameters; they and `out` are [n, p]."""
         given = [position, acceleration, temperature, load_torque, motor_torque]
-        given += [external_torque, time, load_torque_curvature]
+        given += [external_torque, time, load_torque_curvature, temperature_rate]
         read = columns(self.core, velocity, dt, given)
         return evaluate.gradient(self.core, self.spec, self.known_values(), read, state, out)
 
@@ -359,8 +359,8 @@ class Model(Shown):
             rad/s or m/s.
         **channels : arrays [n]
             ``position``, ``acceleration``, ``temperature``, ``load_torque``, ``motor_torque``,
-            ``external_torque``, ``time``, ``load_torque_curvature``. Default: the middle of the
-            operating box; for the time that of the recording, for the last one 0.
+            ``external_torque``, ``time``, ``load_torque_curvature``, ``temperature_rate``. Default:
+            the middle of the box; for the time that of the recording, for the last two 0.
         """
         found = split_columns(self.core, velocity, channels, self.box)
         return dict(self.core.split(self.known_values(), **found))

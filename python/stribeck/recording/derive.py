@@ -12,7 +12,15 @@ from stribeck.base.low_pass import zero_phase
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.rows import segment_slices
 
-__all__ = ["HIGHEST", "Smoother", "choose_cutoff", "jumps", "motion_band"]
+__all__ = [
+    "HIGHEST",
+    "Smoother",
+    "choose_cutoff",
+    "curvature",
+    "jumps",
+    "motion_band",
+    "slow_rate",
+]
 
 #: Highest cut-off, as a share of the sampling rate: above it, a filter removes next to nothing.
 HIGHEST = 0.4
@@ -22,6 +30,8 @@ _MARGIN = 1.5
 _ABOVE = 4.0
 #: A jump is this many times the 99 % quantile of the change from step to step.
 _JUMP = 20.0
+#: Means of a slow channel over each run, between which its rate is taken.
+_MEANS = 50
 #: Steps within 1 % of their mean count as uniform.
 _UNIFORM = 0.01
 
@@ -133,6 +143,39 @@ def motion_band(time: Floats, velocity: Floats, segment: Ints) -> float | None:
     order = np.argsort(frequency, kind="stable")
     power = np.cumsum(spectrum[order])
     return float(frequency[order][int(np.searchsorted(power, 0.99 * total))]) or None
+
+
+def curvature(time: Floats, segment: Ints, value: Floats, denoised: Floats) -> Floats:
+    """Second derivative of a load by central differences of it without its noise, [n].
+
+    A jump is a change of payload; the stretches before and after it are differentiated separately.
+    """
+    stretch = segment + np.cumsum(np.concatenate([[False], jumps(value)]))
+    return Smoother(time, stretch, None).smooth(denoised, 2)
+
+
+def slow_rate(time: Floats, value: Floats, run: Ints) -> Floats:
+    """Derivative of a slow channel, by differences of its means over fiftieths of each run, [n].
+
+    A thermometer shows small steps, which the means smooth. Gaps within a run do not matter: each
+    mean counts at the mean of its times.
+    """
+    rate = np.zeros_like(value)
+    for part in segment_slices(run):
+        t, x = time[part], value[part]
+        duration = float(t[-1] - t[0])
+        if duration <= 0.0:
+            continue
+        place = np.minimum((_MEANS * (t - t[0]) / duration).astype(np.int64), _MEANS - 1)
+        count = np.bincount(place, minlength=_MEANS)
+        filled = count > 0
+        times, means = (
+            np.bincount(place, weights=of, minlength=_MEANS)[filled] / count[filled]
+            for of in (t, x)
+        )
+        if means.size > 1:
+            rate[part] = np.interp(t, times, np.gradient(means, times))
+    return rate
 
 
 def jumps(value: Floats) -> Bools:

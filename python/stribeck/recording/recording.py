@@ -16,9 +16,9 @@ from stribeck.base.errors import RecordingError, option
 from stribeck.base.shown import Plotted
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.check import Check
-from stribeck.recording.derive import Smoother, jumps
+from stribeck.recording.derive import curvature, slow_rate
 from stribeck.recording.origin import Origin
-from stribeck.recording.rows import SIGMAS, noise_level
+from stribeck.recording.rows import SIGMAS, noise_level, segment_slices
 
 __all__ = ["Column", "Recording"]
 
@@ -339,15 +339,16 @@ class Recording(Plotted):
 
     @cached_property
     def load_torque_curvature(self) -> Floats | None:
-        """Second derivative of the load torque by time, N m/s2 or N/s2, [n]; None without a load.
-
-        By central differences of the load torque without its noise, segment by segment. A jump is
-        a change of payload; the stretches before and after it are differentiated separately.
-        """
+        """Second derivative of the load torque, N m/s2 or N/s2, [n]; None without a load."""
         if self.load_torque is None:
             return None
-        stretch = self.segment + np.cumsum(np.concatenate([[False], jumps(self.load_torque)]))
-        return Smoother(self.time, stretch, None).smooth(self.denoised("load_torque"), 2)
+        return curvature(self.time, self.segment, self.load_torque, self.denoised("load_torque"))
+
+    @cached_property
+    def temperature_rate(self) -> Floats | None:
+        """Derivative of the temperature by time, K/s, [n]; None without a temperature."""
+        shown = self.temperature
+        return None if shown is None else slow_rate(self.elapsed, shown, self.run)
 
     @cached_property
     def motion_band(self) -> float | None:
@@ -369,7 +370,7 @@ class Recording(Plotted):
         speed (99.9th percentile over moving samples), torque (rms over moving samples; with a
         drive, of the load), effort (rms of `torque` over moving samples, in its own unit), position
         (excursion), acceleration (99th percentile of the smooth one), sample_period (median step),
-        temperature (span). A missing channel has scale 0.
+        temperature (span), duration (of the longest run). A missing channel has scale 0.
         """
         return self._scales
 
@@ -378,6 +379,7 @@ class Recording(Plotted):
         moving = self.moving if self.moving.any() else np.ones(len(self.moving), dtype=bool)
         steps = self.dt[self.dt > 0.0]
         seen = self.torque if self.drive is None or self.load_torque is None else self.load_torque
+        durations = (float(np.ptp(self.time[part])) for part in segment_slices(self.run))
         return {
             "speed": float(np.percentile(np.abs(self.velocity[moving]), 99.9)),
             "torque": float(np.sqrt(np.mean(seen[moving] ** 2))),
@@ -386,15 +388,13 @@ class Recording(Plotted):
             "acceleration": float(np.percentile(np.abs(self.acceleration_smooth), 99.0)),
             "sample_period": float(np.median(steps)) if steps.size else 0.0,
             "temperature": float(np.ptp(self.temperature)) if self.temperature is not None else 0.0,
+            "duration": max(durations),
         }
 
     def to_frame(self) -> pl.DataFrame:
         """The channels as a polars frame, one row per sample."""
         names = ("position", "velocity", "acceleration", "torque", "load_torque", "temperature")
-        channels: dict[str, Floats] = {"time": self.time}
-        for name in names:
-            values: Floats | None = getattr(self, name)
-            if values is not None:
-                channels[name] = values
+        given = {name: getattr(self, name) for name in ("time", *names)}
+        channels = {name: values for name, values in given.items() if values is not None}
         runs = pl.Series("run", [self.run_names[i] for i in self.run])
         return pl.DataFrame(channels).with_columns(runs, pl.Series("moving", self.moving))

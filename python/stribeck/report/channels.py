@@ -118,6 +118,11 @@ def _temperature(fit: Fit) -> Channel | None:
     return None if r.temperature is None else Channel(r.temperature, "temperature [°C]")
 
 
+def _temperature_rate(fit: Fit) -> Channel | None:
+    rate = fit.recording.temperature_rate
+    return None if rate is None else Channel(rate, "rate of the temperature [K/s]")
+
+
 def _load(fit: Fit) -> Channel | None:
     load, unit = load_of(fit), fit.model.load_unit
     return None if load is None else Channel(load, f"load {torque_name(unit)} [{unit}]")
@@ -188,6 +193,7 @@ _CHANNELS: dict[str, Callable[[Fit], Channel | None]] = {
     "acceleration": _acceleration,
     "acceleration_along": _acceleration_along,
     "temperature": _temperature,
+    "temperature_rate": _temperature_rate,
     "load": _load,
     "load_size": _load_size,
     "load_along": _load_along,

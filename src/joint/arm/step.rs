@@ -85,6 +85,7 @@ impl<P: Number> ArmStep<'_, P> {
             temperature: self.push.temperature[JOINT],
             load_torque: self.arm.load(&self.from, mean, h)[JOINT],
             load_torque_curvature: P::zero(),
+            temperature_rate: P::zero(),
             motor_torque: self.push.motor[JOINT],
             external_torque: P::zero(),
             time: self.push.time + self.elapsed + h * half,

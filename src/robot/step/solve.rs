@@ -44,6 +44,7 @@ impl<P: Number> Step<'_, '_, P> {
             temperature: self.pushed.temperature[joint],
             load_torque: axis.load + self.own(joint) * (mean - axis.mean),
             load_torque_curvature: P::zero(),
+            temperature_rate: P::zero(),
             motor_torque: self.pushed.motor[joint],
             external_torque: P::zero(),
             time: self.pushed.time + self.elapsed + half,

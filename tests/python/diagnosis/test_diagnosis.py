@@ -9,6 +9,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from stribeck.effect.describe import base_of
 from stribeck.effect.registry import of_catalog
 from stribeck.effect.ripple import ripple_period_of
 from stribeck.models.catalog import effect_ids
@@ -153,7 +154,7 @@ def test_the_period_of_a_ripple_is_found(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("effect", effect_ids())
 def test_sentences_hold_numbers_and_units(effect: str, plain: sb.Recording) -> None:
-    before = sb.fit("coulomb", plain)
+    before = sb.fit("+".join(["coulomb", *base_of(effect)]), plain)
     after = sb.add(before, effect, starts=1)
     sentence = of_catalog(effect).where(before, after)
     assert any(c.isdigit() for c in sentence) and "nan" not in sentence and "None" not in sentence

@@ -37,6 +37,7 @@ def channels(rows: int, rate: float = 200.0) -> dict[str, Array]:
         "position": 0.7 * np.sin(w * t),
         "acceleration": -0.7 * w**2 * np.sin(w * t),
         "temperature": 25.0 + 10.0 * t,
+        "temperature_rate": np.full(rows, 10.0),
         "load_torque": 5.0 * np.sin(0.6 * w * t + 0.3),
         "load_torque_curvature": -5.0 * (0.6 * w) ** 2 * np.sin(0.6 * w * t + 0.3),
         "motor_torque": 5.0 * np.sin(0.6 * w * t + 0.1),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import stribeck as sb
+from stribeck.effect.describe import base_of
 from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import catalog, effect_ids
 from stribeck.report.equations import CONSTANTS, SYMBOLS, equations
@@ -44,12 +45,6 @@ def introduction() -> str:
     return f"{INTRODUCTION}{table}\n\nIn units T is N m or N, and X is rad or m.\n"
 
 
-def base_of(effect: str) -> tuple[str, ...]:
-    """The effects beside which one is shown: the simpler effect that it contains."""
-    beyond = catalog()["effects"][effect]["beyond"]
-    return () if beyond is None else (str(beyond),)
-
-
 def description(effect: str) -> list[str]:
     """Heading, cause, equation and parameters of an effect, as lines of Markdown."""
     row = catalog()["effects"][effect]
@@ -85,8 +80,10 @@ def _symbol(name: str) -> str:
 def _relations(effect: str) -> list[str]:
     """How the effect is related to others, on any data."""
     said, row = [], of_catalog(effect)
-    for base in base_of(effect):
-        said.append(f"It goes beyond [{base}](#{base}), which is tried first.")
+    if row.shown_beside is not None:
+        said.append(f"It shows beside [{row.shown_beside}](#{row.shown_beside}), for example.")
+    elif base := base_of(effect):
+        said.append(f"It goes beyond [{base[0]}](#{base[0]}), which is tried first.")
     if row.part_of is not None:
         said.append(f"It is a special case of [{row.part_of}](#{row.part_of}).")
     inside = [name for name in effect_ids() if of_catalog(name).part_of == effect]

@@ -6,8 +6,8 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 import stribeck as sb
-from catalog import base_of
 from matplotlib.figure import Figure
+from stribeck.effect.describe import base_of
 from stribeck.effect.registry import of_catalog
 from stribeck.motion.generate.hidden import generate
 from stribeck.report.finding import finding_panel, legend_of_panel

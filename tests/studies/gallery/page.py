@@ -13,11 +13,12 @@ from collections import Counter
 from io import BytesIO
 from pathlib import Path
 
-from catalog import base_of, description, introduction
+from catalog import description, introduction
 from example import RATE, SECONDS, SEEDS, Example, example
 from PIL import Image
 from poor import obstacles
 from stribeck.effect.base import Obstacle
+from stribeck.effect.describe import base_of
 from stribeck.models.catalog import effect_ids
 from stribeck.report.numbers import listed, plain
 

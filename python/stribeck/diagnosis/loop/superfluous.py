@@ -10,6 +10,7 @@ from stribeck.base.pool import on_threads
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, evidence, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST
+from stribeck.effect.registry import of_catalog
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import QUICK
@@ -33,11 +34,18 @@ def without_effects(model: Model, effects: Sequence[str]) -> Model:
 
 
 def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
-    """The model refitted without what a finding brought; None where that cannot be fitted."""
+    """The model refitted without what a finding brought; None where that cannot be fitted.
+
+    An effect that has no influence without it is left out too: the lag of a thermometer without
+    friction that depends on temperature.
+    """
+    recording = current.recording
+    model = without_effects(current.model, brought_by(finding))
+    alone = [e for e in model.effects if of_catalog(e).refusal(model, recording) is not None]
     try:
         return fit(
-            without_effects(current.model, brought_by(finding)),
-            current.recording,
+            without_effects(model, alone),
+            recording,
             starts=1,
             seed=seed,
             transient=current.transient,

@@ -34,6 +34,7 @@ _CHANNEL_UNITS = {
     "position": "X",
     "acceleration": "X/s2",
     "temperature": "degC",
+    "temperature_rate": "K/s",
     "load_torque": "T",
     "load_torque_curvature": "T/s2",
     "motor_torque": "T",

@@ -171,16 +171,18 @@ class _Hidden:
         t = np.arange(n) / rate - (fine - 1) / rate - self.delay
         q, v, a = self.motion(t)
         load = self.payloads.torque(t, q, a)
+        temperature = _temperature(t, self.seconds, self.warming)
         friction = self.model.torque(
             v,
             q,
             a,
-            _temperature(t, self.seconds, self.warming),
+            temperature,
             load,
             dt=np.full(n, 1.0 / rate),
             external_torque=self.payloads.external_torque(t, q),
             time=t,
             load_torque_curvature=self.payloads.curvature(t),
+            temperature_rate=np.gradient(temperature, 1.0 / rate),
         )
         return (load + friction)[fine - 1 :: fine]
 
@@ -191,7 +193,7 @@ class _Hidden:
         q, v, a = self.motion(time)
         load = self.payloads.torque(time, q, a)
         for effect in self.effects:
-            why = of_catalog(effect).cannot_hide(load)
+            why = of_catalog(effect).cannot_hide(self.model, load)
             if why is not None:
                 raise SpecError(why)
         torque = self.friction_and_load()

@@ -32,6 +32,7 @@ def plausible_values(
         "torque_rate": c * joint.speed / joint.stroke,
         "inertia": joint.inertia,
         "sample_period": 1.0,
+        "duration": 100.0,
         "time": joint.stroke / joint.speed,
         "square_time": (joint.stroke / joint.speed) ** 2,
     }

@@ -10,6 +10,7 @@ import pytest
 import stribeck as sb
 from polars.testing import assert_frame_equal
 from stribeck.base.errors import SpecError
+from stribeck.effect.describe import base_of
 from stribeck.models.catalog import effect_ids
 from stribeck.motion.generate.demo import demo_path, demo_recording
 from stribeck.motion.generate.hidden import generate
@@ -51,8 +52,7 @@ def test_the_motion_is_smooth_and_its_derivatives_belong_to_it(kind: str, seed: 
 @pytest.mark.parametrize("kind", sorted(JOINTS))
 @pytest.mark.parametrize("effect", effect_ids())
 def test_every_effect_can_be_hidden(effect: str, kind: str) -> None:
-    # A lag of the Stribeck curve needs one.
-    base = ["stribeck"] if effect == "frictional_lag" else []
+    base = list(base_of(effect))
     said = {"seed": 1, "seconds": 30.0, "rate": 100.0, "noise": 0.0, "joint_kind": kind}
     if (effect, kind) == ("backlash", "prismatic"):
         with pytest.raises(SpecError, match="changes its sign"):

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 import stribeck as sb
 from stribeck.benchmark.cases import cases
+from stribeck.effect.describe import base_of
 from stribeck.models.catalog import effect_ids
 from stribeck.motion.generate.files import write_robot
 from stribeck.motion.generate.hidden import generate
@@ -75,7 +76,7 @@ def test_shared_cases() -> None:
 def test_generated_joints(tmp_path: Path) -> None:
     alarms, path = [], tmp_path / "joint.parquet"
     for kind in ("revolute", "prismatic"):
-        for hidden in ([], *([effect] for effect in effect_ids())):
+        for hidden in ([], *([*base_of(effect), effect] for effect in effect_ids())):
             frame, _ = generate(hidden, seconds=40.0, rate=100.0, seed=7, joint_kind=kind)
             frame.write_parquet(path)
             alarms += _alarms(f"{kind} {hidden}", sb.read(path, joint_kind=kind))
