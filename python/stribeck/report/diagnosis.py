@@ -30,6 +30,8 @@ VERDICTS = {
     "none": "Nothing is missing: the residual is noise.",
     "unexplained": "Unexplained structure remains, but none of the known effects explains it.",
 }
+#: The verdict where nothing is found, and it is not known how much of the error is noise.
+NONE_SHOWN = "No effect that this recording can show is missing."
 #: The verdict where effects lower the held-out error, and none may be claimed.
 NO_CLAIM = "Effects lower the held-out error, but none of them can be claimed on this recording."
 #: Headings of the lists of a diagnosis.
@@ -76,6 +78,8 @@ def _verdict(diagnosis: Diagnosis) -> str:
     """The verdict as a heading, in proportion to the confidence."""
     if not diagnosis.findings and diagnosis.has_doubts:
         return NO_CLAIM
+    if diagnosis.verdict == "none" and diagnosis.unexplained.share is None:
+        return NONE_SHOWN
     said = VERDICTS[diagnosis.verdict]
     word = hedge(diagnosis.findings[0].confidence) if diagnosis.findings else ""
     return f"{word.capitalize()} {said[0].lower()}{said[1:]}" if word else said

@@ -1,10 +1,10 @@
 """Unexplained structure: how much of the error it is, and where it is largest.
 
-Three kinds of structure can be shown without knowing the cause: what a flexible regressor finds in
+Four kinds of structure can be shown without knowing the cause: what a flexible regressor finds in
 the recorded channels on unseen blocks, friction that varies along the recording in both directions
-alike, and a residual far above the noise floor, which repeats with the motion. If none shows, the
-residual counts as noise. The amount of structure follows from the noise floor, because a regressor
-never finds all of it.
+alike, a residual that lasts longer than noise, and one far above the noise floor, which repeats
+with the motion. If none shows, the residual counts as noise. The amount of structure follows from
+the noise floor, because a regressor never finds all of it.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.diagnosis.residual.explainable import Explainable
+from stribeck.diagnosis.residual.lasting import lasting_square
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.regimes import regime_rows
 from stribeck.diagnosis.residual.varying_friction import VaryingFriction, varying_friction
@@ -106,27 +107,40 @@ def _unexplained(
 ) -> Unexplained:
     """The same without the share of excluded samples."""
     total = rms(fit.held_out_residual[fit.rows]) ** 2
-    if explained is None or not total > 0.0:
+    if not total > 0.0:
         return Unexplained(None, None)
+    learned = 0.0 if explained is None else explained.left
     above = 0.0 if floor.value is None else 1.0 - floor.value**2 / total
     varying = VaryingFriction(0.0)
     if last:
         varying = varying_friction(fit, suspected=above > SUSPICIOUS)
     varying_share = min(varying.rms**2 / total, 1.0)
-    share = max(explained.left, varying_share)
-    if share <= STRUCTURE:
-        if not floor.value or floor.is_reached_by(rms(fit.residual[fit.rows])):
-            return Unexplained(share, None)
-        return Unexplained(above, _repeated(fit, floor.value))
-    is_varying = varying_share > explained.left
-    place = _varying(fit, varying) if is_varying else _place(fit)
-    return Unexplained(max(share, above), place, share)
+    lasting = min(lasting_square(fit) / total, 1.0)
+    shown = max(learned, varying_share, lasting)
+    if shown > STRUCTURE:
+        if max(learned, varying_share) <= STRUCTURE:
+            place = _lasting(lasting)
+        else:
+            place = _varying(fit, varying) if varying_share > learned else _place(fit)
+        return Unexplained(max(shown, above), place, shown)
+    if explained is None:
+        return Unexplained(None, None)
+    if not floor.value or floor.is_reached_by(rms(fit.residual[fit.rows])):
+        return Unexplained(max(learned, varying_share), None)
+    return Unexplained(above, _repeated(fit, floor.value))
 
 
 def _varying(fit: Fit, varying: VaryingFriction) -> str:
     return (
         f"friction varies by {number(varying.rms, 2)} {fit.model.torque_unit} (RMS) during the "
         f"recording, equally in both directions, and no recorded channel explains it"
+    )
+
+
+def _lasting(share: float) -> str:
+    return (
+        f"{number(100.0 * share, 2)} % of it keeps its sign for longer than the noise of a sensor, "
+        f"but no function of the recorded channels explains it"
     )
 
 

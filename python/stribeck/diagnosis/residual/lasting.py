@@ -1,0 +1,40 @@
+"""The part of a residual that lasts longer than the noise of any sensor.
+
+Noise of a sensor, behind its filters, is forgotten within a tenth of a second. What is still there
+a quarter of a second later is torque, whether or not the joint passes the same state again. A
+vibration changes its sign meanwhile, and its mean over these times is zero.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.fitting.result import Fit
+
+#: Times over which the residual is compared with itself, s: after the noise, within a move.
+AFTER = (0.2, 0.4)
+#: Fewest samples between those compared, and fewest pairs of samples.
+FEWEST_STEPS, FEWEST_PAIRS = 5, 300
+#: Number of times in the range.
+TIMES = 9
+
+
+def lasting_square(fit: Fit) -> float:
+    """Mean square of the residual that lasts, in squared units of torque; 0 where it is not known.
+
+    It is the mean autocovariance over times after which noise is forgotten.
+    """
+    r = fit.recording
+    if r.averaged:
+        return 0.0
+    first = max(AFTER[0] * r.rate_hz, FEWEST_STEPS)
+    steps = np.unique(np.linspace(first, 2.0 * first, TIMES).round().astype(np.int64))
+    residual = np.full(r.rows, np.nan)
+    residual[fit.rows] = fit.residual[fit.rows] - fit.residual[fit.rows].mean()
+    products = [
+        (residual[:-step] * residual[step:])[r.segment[:-step] == r.segment[step:]]
+        for step in steps
+        if step < r.rows
+    ]
+    means = [float(np.nanmean(p)) for p in products if np.isfinite(p).sum() >= FEWEST_PAIRS]
+    return max(float(np.mean(means)), 0.0) if len(means) == steps.size else 0.0

@@ -1,0 +1,45 @@
+"""The part of a residual that lasts longer than noise."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import stribeck as sb
+from stribeck.diagnosis.residual.lasting import lasting_square
+from synthetic import Array, ar1, joint, record
+
+RATE, ROWS, NOISE = 100.0, 6000, 0.03
+#: A torque that takes a new value every 3 s.
+STEPS = 2 * NOISE * np.repeat(np.random.default_rng(1).standard_normal(ROWS // 300), 300)
+
+
+def lasting(tmp_path: Path, extra: Array | float) -> float:
+    """What lasts of the residual, relative to the mean square of the white noise."""
+    fit = sb.fit("coulomb", record(tmp_path, joint(extra, rows=ROWS, noise=NOISE)))
+    return lasting_square(fit) / NOISE**2
+
+
+def test_noise_of_a_sensor_does_not_last(tmp_path: Path) -> None:
+    assert lasting(tmp_path, 0.0) < 0.05
+    # As behind a filter: forgotten after 30 ms.
+    filtered = ar1(np.random.default_rng(2), ROWS, np.exp(-1.0 / (0.03 * RATE)), 2 * NOISE)
+    assert lasting(tmp_path, filtered) < 0.2
+
+
+def test_a_vibration_does_not_last(tmp_path: Path) -> None:
+    time = np.arange(ROWS) / RATE
+    assert lasting(tmp_path, 2 * NOISE * np.sin(2 * np.pi * 9.0 * time)) < 0.2
+
+
+def test_a_torque_that_keeps_its_value_lasts(tmp_path: Path) -> None:
+    # A tenth of the pairs of samples 0.3 s apart have a step between them.
+    assert lasting(tmp_path, STEPS) == pytest.approx(0.9 * np.var(STEPS) / NOISE**2, rel=0.25)
+
+
+def test_it_is_structure_though_no_channel_explains_it(tmp_path: Path) -> None:
+    recording = record(tmp_path, joint(STEPS, rows=ROWS, noise=NOISE))
+    found = sb.diagnose(sb.fit("coulomb", recording))
+    assert found.verdict == "unexplained"
+    assert found.unexplained.share is not None and found.unexplained.share > 0.4

@@ -1,0 +1,70 @@
+"""A thermometer that follows the temperature of the contacts late: its lag is identified."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+from scipy.signal import lfilter
+from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.recording.derive import slow_rate
+from synthetic import Array, joint, motion, record
+
+#: Seconds by which the thermometer is late, and the share of dry friction (3 N m) lost per kelvin.
+LAG, SLOPE = 3.0, 0.02
+
+
+def contacts(rows: int) -> Array:
+    """Temperature of the contacts, degC: it rises in bursts and falls in between."""
+    t = np.arange(rows) / 100.0
+    return 30.0 + 6.0 * np.sin(2.0 * np.pi * t / 41.0) + 4.0 * np.sin(2.0 * np.pi * t / 23.0)
+
+
+def seen_late(rows: int = 8000) -> pl.DataFrame:
+    """A joint whose dry friction falls with the temperature of the contacts."""
+    _, _, v, _ = motion(rows=rows)
+    warm, share = contacts(rows), 1.0 - np.exp(-0.01 / LAG)
+    shown = lfilter([share], [1.0, share - 1.0], warm - 30.0) + 30.0
+    frame = joint(-3.0 * SLOPE * (warm - 30.0) * np.sign(v), rows=rows)
+    return frame.with_columns(temperature=np.round(shown, 1))
+
+
+def test_the_time_constant_is_identified(tmp_path: Path) -> None:
+    recording = record(tmp_path, seen_late())
+    late = sb.fit("coulomb+temperature_dry", recording, starts=2)
+    fit = sb.fit("coulomb+temperature_dry+thermometer_lag", recording, starts=2)
+    assert fit.estimates["thermometer_lag"].value == pytest.approx(LAG, rel=0.1)
+    assert fit.rmse < 0.6 * late.rmse
+    assert fit.rmse == pytest.approx(0.03, rel=0.1)
+
+
+@pytest.mark.slow
+def test_it_is_found_after_the_temperature_and_said(tmp_path: Path) -> None:
+    found = sb.improve("coulomb", record(tmp_path, seen_late()))
+    named = [step.finding.effect for step in found.steps]
+    assert named == ["temperature_dry", "thermometer_lag"]
+    where = found.steps[1].finding.where
+    assert where.startswith("this is not friction: ") and "with a time constant of " in where
+    # Without friction that depends on temperature the lag has no influence, and goes with it.
+    without = fit_without(found.final, found.steps[0].finding, 0)
+    assert without is not None and without.model.effects == ()
+
+
+def test_friction_that_does_not_depend_on_temperature_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(sb.StribeckError, match="the temperature right, on which coulomb"):
+        sb.fit("coulomb+thermometer_lag", record(tmp_path, joint()))
+
+
+def test_a_rate_is_that_of_each_run_and_passes_over_gaps() -> None:
+    time = np.concatenate([np.arange(0.0, 40.0, 0.1), np.arange(70.0, 100.0, 0.1)])
+    shown = np.round(20.0 + 0.05 * time, 1)
+    rate = slow_rate(time, shown, np.zeros(time.size, dtype=np.int64))
+    assert rate == pytest.approx(np.full(time.size, 0.05), abs=0.01)
+    falling = np.concatenate([shown, shown[::-1]])
+    run = np.repeat([0, 1], time.size)
+    both = slow_rate(np.concatenate([time, time]), falling, run)
+    assert both[: time.size] == pytest.approx(rate)
+    assert both[time.size :].max() < 0.0
