@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from stribeck.effect.describe import base_of
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.result import Fit
 from stribeck.models.build import model
@@ -15,8 +16,6 @@ __all__ = ["EffectExample", "effect_example"]
 
 #: Seconds and rate of the recording, Hz.
 SECONDS, RATE = 60.0, 100.0
-#: Laws that an effect needs, where that is not the base.
-LAWS = {"frictional_lag": "coulomb+stribeck"}
 
 
 @dataclass(frozen=True)
@@ -47,9 +46,8 @@ def effect_example(effect: str) -> EffectExample:
     >>> example.without.rmse > 10 * example.with_it.rmse
     True
     """
-    law = LAWS.get(effect, "coulomb")
-    base, *others = law.split("+")
-    frame, truth = generate([*others, effect], law=base, seconds=SECONDS, rate=RATE, noise=0.0)
+    hidden = [*base_of(effect), effect]
+    frame, truth = generate(hidden, seconds=SECONDS, rate=RATE, noise=0.0)
     values = {name: known["value"] for name, known in truth["parameters"].items()}
     whole = model(truth["spec"], constants=truth["constants"], **values)
     recording = read(frame)

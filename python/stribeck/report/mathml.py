@@ -242,8 +242,9 @@ def _symbol(name: str) -> str:
     if name.startswith("dF"):
         return f"<mrow><mi>&#x394;</mi>{_symbol(name[1:])}</mrow>"
     if name.endswith("/dt"):
-        return f"<mfrac>{_symbol(name[:-3])}<mrow><mi>d</mi><mi>t</mi></mrow></mfrac>"
-    if re.fullmatch(r"d[a-zP]\d?(_i)?", name) and name not in _NO_DIFFERENTIALS:
+        above = f"<mrow><mi>d</mi>{_symbol(name[1:-3])}</mrow>"
+        return f"<mfrac>{above}<mrow><mi>d</mi><mi>t</mi></mrow></mfrac>"
+    if re.fullmatch(r"d[a-z]\d?(_i)?", name) and name not in _NO_DIFFERENTIALS:
         return f"<mrow><mi>d</mi>{_symbol(name[1:])}</mrow>"
     head, _, below = name.partition("_")
     if head in _GREEK:
