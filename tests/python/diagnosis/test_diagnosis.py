@@ -71,7 +71,7 @@ def test_contract_keys(diagnosis: sb.Diagnosis) -> None:
         assert 0.0 <= row["confidence"] <= 1.0 and 0.0 <= row["share_of_unexplained"] <= 1.0
         assert row["effect"] in effect_ids() and row["where"]
     unseen = {row["effect"] for row in answer["untestable"]}
-    assert unseen == {"temperature_viscous", "temperature_dry"}
+    assert unseen == {"temperature_viscous", "temperature_dry", "thermometer_lag"}
     for row in answer["untestable"]:
         assert {"effect", "why", "do"} <= set(row)
     assert set(answer["unexplained"]) == {"share", "where"}

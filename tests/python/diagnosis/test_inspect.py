@@ -48,7 +48,7 @@ def test_contract_keys(tmp_path: Path) -> None:
 def test_testable_and_untestable_are_all_effects(tmp_path: Path) -> None:
     answer = inspect(write(tmp_path, joint(rows=1500).drop("temperature"))).to_dict()
     cannot = {row["effect"] for row in answer["untestable"]}
-    assert cannot == {"temperature_viscous", "temperature_dry"}
+    assert cannot == {"temperature_viscous", "temperature_dry", "thermometer_lag"}
     assert set(answer["testable"]) | cannot == set(effect_ids())
     assert not set(answer["testable"]) & cannot
     for row in answer["untestable"]:
@@ -82,7 +82,8 @@ def test_several_joints_are_all_looked_at(tmp_path: Path) -> None:
     # What one of them can show the file can show.
     assert answer["untestable"] == []
     knee = inspect(path, joint="knee").to_dict()
-    assert {r["effect"] for r in knee["untestable"]} == {"temperature_viscous", "temperature_dry"}
+    thermal = {"temperature_viscous", "temperature_dry", "thermometer_lag"}
+    assert {r["effect"] for r in knee["untestable"]} == thermal
 
 
 def test_a_file_that_is_no_recording_yet_is_still_shown(tmp_path: Path) -> None:

@@ -33,7 +33,7 @@ def could(share: float) -> Explainable:
 
 @pytest.fixture(autouse=True)
 def asked(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
-    """No friction varies; what the search for it was told is kept."""
+    """No friction varies, and nothing lasts; what the search for it was told is kept."""
     kept: list[bool] = []
 
     def constant(fit: object, *, suspected: bool = False) -> VaryingFriction:
@@ -41,6 +41,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
         return VaryingFriction(0.0)
 
     monkeypatch.setattr(module, "varying_friction", constant)
+    monkeypatch.setattr(module, "lasting_square", lambda fit: 0.0)
     return kept
 
 
@@ -110,6 +111,20 @@ def test_varying_friction_is_named_where_it_is_the_larger_part(
     # It is a share, whatever its estimate.
     varies(monkeypatch, 5.0)
     assert unexplained(fit, NO_FLOOR, could(0.3)).share == 1.0
+
+
+def test_what_lasts_is_structure_without_a_regressor_and_a_floor(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    fit, square = left(Moved(SPEED), FLAT), 4.0
+    for share in (0.5 * STRUCTURE, 2.0 * STRUCTURE):
+        monkeypatch.setattr(module, "lasting_square", lambda fit, share=share: share * square)
+        said = unexplained(fit, NO_FLOOR, None)
+        assert said.is_structure == (share > STRUCTURE)
+    assert said.share == said.shown == pytest.approx(2.0 * STRUCTURE)
+    assert said.where is not None and said.where.startswith("20 % of it keeps its sign")
+    # A regressor that finds it says where.
+    assert unexplained(fit, NO_FLOOR, could(0.4)).where == "everywhere"
 
 
 def test_friction_is_compared_once_nothing_is_left_to_add(asked: list[bool]) -> None:

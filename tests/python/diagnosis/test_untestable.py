@@ -41,7 +41,7 @@ def test_temperature(tmp_path: Path, change: str) -> None:
         frame = frame.with_columns(temperature=30.0 + pl.col("time") / 10.0)
     found = answers(tmp_path, frame)
     slow = {"constant": set(), "absent": set(), "three kelvin": {"drift"}}[change]
-    assert set(found) == {"temperature_viscous", "temperature_dry"} | slow
+    assert set(found) == {"temperature_viscous", "temperature_dry", "thermometer_lag"} | slow
     assert "temperature" in found["temperature_dry"]
     assert all("temperature" in found[effect] for effect in slow)
 

@@ -9,6 +9,7 @@ import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.effect.constants import effect_constants
+from stribeck.effect.describe import base_of
 from stribeck.identify.scaling import (
     bounds,
     law_constants,
@@ -28,9 +29,8 @@ def test_bounds_hold_the_start_and_scale_with_the_machine(
         frame.with_columns(torque=frame["torque"] * 50.0, load_torque=frame["load_torque"] * 50.0),
     )
     for effect in catalog()["effects"]:
-        # A lag of the Stribeck curve needs one.
-        law = "coulomb+stribeck" if effect == "frictional_lag" else "coulomb"
-        spec = f"{law}+{effect}"
+        base = () if effect == "quadrant" else base_of(effect)
+        spec = "+".join(["coulomb", *base, effect])
         m = model_for(spec, plain)
         lower, upper, start = bounds(m, plain)
         assert np.all(lower <= start) and np.all(start <= upper) and np.all(lower < upper), spec
