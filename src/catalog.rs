@@ -203,10 +203,15 @@ macro_rules! effects {
                 self.present.iter().any(EffectId::has_state)
             }
 
-            /// The sample that acts, where an effect says that the sensors show another one.
-            #[inline]
-            pub fn acting(&self, sample: &Sample<S::Plain>) -> Option<Sample<S::Plain>> {
-                None$(.or_else(|| self.$id.as_ref().and_then(|effect| effect.acting(sample))))+
+            /// The sample that acts, where the sensors show another one.
+            #[inline(always)]
+            pub fn acting(&self, sample: &Sample<S::Plain>) -> Sample<S::Plain> {
+                let sample = *sample;
+                $(let sample = match &self.$id {
+                    Some(effect) => effect.acting(sample),
+                    None => sample,
+                };)+
+                sample
             }
 
             /// Applies the effects to the split, in their order.

@@ -310,12 +310,23 @@ impl<S: Real> Composed<S> {
         self.memory
     }
 
+    /// The sample that acts on friction, where the sensors show another one.
+    #[inline(always)]
+    #[must_use]
+    pub fn acting(&self, sample: &Sample<S::Plain>) -> Sample<S::Plain> {
+        self.effects.acting(sample)
+    }
+
     /// The torque at one sample, by its parts.
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
-        let acting = self.effects.acting(sample);
-        let sample = acting.as_ref().unwrap_or(sample);
+        self.split_of_acting(&self.effects.acting(sample))
+    }
+
+    /// Like [`split`](Self::split), of the sample that acts.
+    #[inline(always)]
+    fn split_of_acting(&self, sample: &Sample<S::Plain>) -> Split<S> {
         let split = self.law.split(sample, &self.constants);
         if self.effects.is_empty() && self.formula.is_none() {
             return split;
@@ -344,10 +355,13 @@ impl<S: Real> Composed<S> {
     #[inline(always)]
     #[must_use]
     pub(crate) fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
-        self.bristle.or_else(|| {
-            let acting = self.effects.acting(sample);
-            self.law.bristle(acting.as_ref().unwrap_or(sample), &self.constants)
-        })
+        self.bristle_of_acting(&self.effects.acting(sample))
+    }
+
+    /// Like [`bristle`](Self::bristle), of the sample that acts.
+    #[inline(always)]
+    fn bristle_of_acting(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
+        self.bristle.or_else(|| self.law.bristle(sample, &self.constants))
     }
 
     /// The equation of the deflection through which dry friction acts, if the state is a single
@@ -360,10 +374,7 @@ impl<S: Real> Composed<S> {
     {
         match &self.bristle {
             Some(bristle) => Some(bristle.deflection(sample.velocity)),
-            None => {
-                let acting = self.effects.acting(sample);
-                self.law.deflection(acting.as_ref().unwrap_or(sample), &self.constants)
-            }
+            None => self.law.deflection(&self.effects.acting(sample), &self.constants),
         }
     }
 
@@ -406,7 +417,7 @@ impl<S: Real> Composed<S> {
     pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
         let mut state = State::default();
         let dt = S::Plain::from_f64(LONG);
-        self.step_over(&mut state, &Interval::constant(*sample, dt));
+        self.step_over(&mut state, &Interval::constant(self.acting(sample), dt));
         state
     }
 
@@ -414,26 +425,26 @@ impl<S: Real> Composed<S> {
     /// memory.
     #[inline]
     pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
-        self.step_over(state, &Interval { mean: true, ..Interval::constant(*sample, dt) })
+        self.step_over(
+            state,
+            &Interval { mean: true, ..Interval::constant(self.acting(sample), dt) },
+        )
     }
 
-    /// Like [`step`](Self::step), over an interval. The torque at its end is the measured one; the
+    /// Like [`step`](Self::step), over an interval with the sample that [acts](Self::acting). The torque at its end is the measured one; the
     /// mean is the real one, which does the work.
     #[inline]
     pub fn step_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
-        let acting = self.effects.acting(&interval.sample);
-        let acting = acting.map(|sample| Interval { sample, ..*interval });
-        let interval = acting.as_ref().unwrap_or(interval);
         let split = if self.has_state {
             self.split_over(state, interval)
         } else {
-            self.split(&interval.sample)
+            self.split_of_acting(&interval.sample)
         };
         let step = if matches!(self.memory, Memory::None) {
             Step::same(split.torque(interval.sample.velocity.sign()))
         } else {
             let dry = state.dry_over(split.dry(), interval);
-            match self.bristle(&interval.sample) {
+            match self.bristle_of_acting(&interval.sample) {
                 Some(bristle) => bristle.step_over(&mut state.bristle, dry, &split, interval),
                 None => self.law.step(state, dry, &split, interval, &self.constants),
             }

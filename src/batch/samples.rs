@@ -137,7 +137,7 @@ fn evaluate<S: Scalar>(
     let mut state = fresh;
     let mut starts = rows.starts().iter().copied().peekable();
     for (i, &dt) in rows.steps().iter().enumerate() {
-        let sample = channels.sample(i);
+        let sample = model.acting(&channels.sample(i));
         let beginning = starts.next_if(|&(row, _)| row == i).map(|(_, beginning)| beginning);
         match beginning {
             Some(Beginning::Settled) => state = model.settled(&sample),

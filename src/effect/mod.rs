@@ -87,8 +87,8 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
     /// The sample that acts, where the sensors show another one. The derivatives of what it changes
     /// with respect to parameters are taken on recordings, by `batch`.
     #[inline]
-    fn acting(&self, _sample: &Sample<S::Plain>) -> Option<Sample<S::Plain>> {
-        None
+    fn acting(&self, sample: Sample<S::Plain>) -> Sample<S::Plain> {
+        sample
     }
 
     /// Changes the split. Effects that do not act on it (a bristle, a gain, a delay) leave it

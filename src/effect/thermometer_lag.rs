@@ -31,10 +31,10 @@ impl<S: Real> FrictionEffect<S> for ThermometerLag<S> {
     };
 
     #[inline]
-    fn acting(&self, sample: &Sample<S::Plain>) -> Option<Sample<S::Plain>> {
+    fn acting(&self, sample: Sample<S::Plain>) -> Sample<S::Plain> {
         let ahead = self.thermometer_lag.plain() * sample.temperature_rate;
         // Without a rate: a sample that is put right twice stays the same.
         let temperature_rate = S::Plain::zero();
-        Some(Sample { temperature: sample.temperature + ahead, temperature_rate, ..*sample })
+        Sample { temperature: sample.temperature + ahead, temperature_rate, ..sample }
     }
 }
