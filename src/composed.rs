@@ -431,8 +431,9 @@ impl<S: Real> Composed<S> {
         )
     }
 
-    /// Like [`step`](Self::step), over an interval with the sample that [acts](Self::acting). The torque at its end is the measured one; the
-    /// mean is the real one, which does the work.
+    /// Like [`step`](Self::step), over an interval, whose sample is the one that
+    /// [acts](Self::acting). The torque at its end is the measured one; the mean is the real one,
+    /// which does the work.
     #[inline]
     pub fn step_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
         let split = if self.has_state {

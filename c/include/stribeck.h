@@ -178,6 +178,10 @@ typedef struct {
    * Time since the start (s).
    */
   double time;
+  /**
+   * Time derivative of the temperature (K/s).
+   */
+  double temperature_rate;
 } stribeck_sample_f64;
 
 /**
@@ -271,6 +275,10 @@ typedef struct {
    * Time since the start (s).
    */
   float time;
+  /**
+   * Time derivative of the temperature (K/s).
+   */
+  float temperature_rate;
 } stribeck_sample_f32;
 
 #ifdef __cplusplus
