@@ -206,12 +206,11 @@ macro_rules! effects {
             /// The sample that acts, where the sensors show another one.
             #[inline(always)]
             pub fn acting(&self, sample: &Sample<S::Plain>) -> Sample<S::Plain> {
-                let sample = *sample;
-                $(let sample = match &self.$id {
-                    Some(effect) => effect.acting(sample),
-                    None => sample,
-                };)+
-                sample
+                let mut acting = *sample;
+                $(if let Some(effect) = &self.$id {
+                    effect.put_right(&mut acting);
+                })+
+                acting
             }
 
             /// Applies the effects to the split, in their order.

@@ -84,12 +84,10 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
     /// Whether it has a state, separate from that of a bristle.
     const HAS_STATE: bool = false;
 
-    /// The sample that acts, where the sensors show another one. The derivatives of what it changes
-    /// with respect to parameters are taken on recordings, by `batch`.
-    #[inline]
-    fn acting(&self, sample: Sample<S::Plain>) -> Sample<S::Plain> {
-        sample
-    }
+    /// Turns the sample that sensors show into the one that acts. The derivatives of what it
+    /// changes with respect to parameters are taken on recordings, by `batch`.
+    #[inline(always)]
+    fn put_right(&self, _sample: &mut Sample<S::Plain>) {}
 
     /// Changes the split. Effects that do not act on it (a bristle, a gain, a delay) leave it
     /// unchanged.

@@ -30,11 +30,10 @@ impl<S: Real> FrictionEffect<S> for ThermometerLag<S> {
         parameters: Self::TABLE,
     };
 
-    #[inline]
-    fn acting(&self, sample: Sample<S::Plain>) -> Sample<S::Plain> {
-        let ahead = self.thermometer_lag.plain() * sample.temperature_rate;
-        // Without a rate: a sample that is put right twice stays the same.
-        let temperature_rate = S::Plain::zero();
-        Sample { temperature: sample.temperature + ahead, temperature_rate, ..sample }
+    #[inline(always)]
+    fn put_right(&self, sample: &mut Sample<S::Plain>) {
+        sample.temperature += self.thermometer_lag.plain() * sample.temperature_rate;
+        // Without a rate, so that a sample which is put right twice stays the same.
+        sample.temperature_rate = S::Plain::zero();
     }
 }
