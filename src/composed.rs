@@ -325,7 +325,7 @@ impl<S: Real> Composed<S> {
     }
 
     /// Like [`split`](Self::split), of the sample that acts.
-    #[inline(always)]
+    #[inline]
     fn split_of_acting(&self, sample: &Sample<S::Plain>) -> Split<S> {
         let split = self.law.split(sample, &self.constants);
         if self.effects.is_empty() && self.formula.is_none() {
