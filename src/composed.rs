@@ -313,7 +313,7 @@ impl<S: Real> Composed<S> {
     /// The sample that acts on friction, where the sensors show another one.
     #[inline(always)]
     #[must_use]
-    pub fn acting(&self, sample: &Sample<S::Plain>) -> Sample<S::Plain> {
+    pub(crate) fn acting(&self, sample: &Sample<S::Plain>) -> Sample<S::Plain> {
         self.effects.acting(sample)
     }
 
@@ -321,7 +321,7 @@ impl<S: Real> Composed<S> {
     #[inline]
     #[must_use]
     pub fn split(&self, sample: &Sample<S::Plain>) -> Split<S> {
-        self.split_of_acting(&self.effects.acting(sample))
+        self.split_of_acting(&self.acting(sample))
     }
 
     /// Like [`split`](Self::split), of the sample that acts.
@@ -351,16 +351,11 @@ impl<S: Real> Composed<S> {
         self.split(sample).torque(direction)
     }
 
-    /// The bristle through which dry friction acts, if the state is a bristle.
+    /// The bristle through which dry friction acts at a sample that [acts](Self::acting), if the
+    /// state is a bristle.
     #[inline(always)]
     #[must_use]
     pub(crate) fn bristle(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
-        self.bristle_of_acting(&self.effects.acting(sample))
-    }
-
-    /// Like [`bristle`](Self::bristle), of the sample that acts.
-    #[inline(always)]
-    fn bristle_of_acting(&self, sample: &Sample<S::Plain>) -> Option<Bristle<S>> {
         self.bristle.or_else(|| self.law.bristle(sample, &self.constants))
     }
 
@@ -374,7 +369,7 @@ impl<S: Real> Composed<S> {
     {
         match &self.bristle {
             Some(bristle) => Some(bristle.deflection(sample.velocity)),
-            None => self.law.deflection(&self.effects.acting(sample), &self.constants),
+            None => self.law.deflection(&self.acting(sample), &self.constants),
         }
     }
 
@@ -417,7 +412,7 @@ impl<S: Real> Composed<S> {
     pub fn settled(&self, sample: &Sample<S::Plain>) -> State<S> {
         let mut state = State::default();
         let dt = S::Plain::from_f64(LONG);
-        self.step_over(&mut state, &Interval::constant(self.acting(sample), dt));
+        self.step_acting(&mut state, &Interval::constant(self.acting(sample), dt));
         state
     }
 
@@ -425,17 +420,25 @@ impl<S: Real> Composed<S> {
     /// memory.
     #[inline]
     pub fn step(&self, state: &mut State<S>, sample: &Sample<S::Plain>, dt: S::Plain) -> Step<S> {
-        self.step_over(
-            state,
-            &Interval { mean: true, ..Interval::constant(self.acting(sample), dt) },
-        )
+        let interval = Interval::constant(self.acting(sample), dt);
+        self.step_acting(state, &Interval { mean: true, ..interval })
     }
 
-    /// Like [`step`](Self::step), over an interval, whose sample is the one that
-    /// [acts](Self::acting). The torque at its end is the measured one; the mean is the real one,
-    /// which does the work.
+    /// Like [`step`](Self::step), over an interval. The torque at its end is the measured one; the
+    /// mean is the real one, which does the work.
     #[inline]
     pub fn step_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Step<S> {
+        let sample = self.acting(&interval.sample);
+        self.step_acting(state, &Interval { sample, ..*interval })
+    }
+
+    /// Like [`step_over`](Self::step_over), with the sample that [acts](Self::acting).
+    #[inline]
+    pub(crate) fn step_acting(
+        &self,
+        state: &mut State<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Step<S> {
         let split = if self.has_state {
             self.split_over(state, interval)
         } else {
@@ -445,7 +448,7 @@ impl<S: Real> Composed<S> {
             Step::same(split.torque(interval.sample.velocity.sign()))
         } else {
             let dry = state.dry_over(split.dry(), interval);
-            match self.bristle_of_acting(&interval.sample) {
+            match self.bristle(&interval.sample) {
                 Some(bristle) => bristle.step_over(&mut state.bristle, dry, &split, interval),
                 None => self.law.step(state, dry, &split, interval, &self.constants),
             }

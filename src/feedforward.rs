@@ -36,7 +36,7 @@ impl<S: Scalar<Plain = S>, L: FrictionLaw<S>> Friction<S> for FixedLaw<L, S> {
 impl<S: Scalar<Plain = S>> Friction<S> for Composed<S> {
     #[inline]
     fn torque(&self, state: &mut State<S>, sample: &Sample<S>, dt: S) -> S {
-        self.step_over(state, &Interval::constant(self.acting(sample), dt)).torque
+        self.step_acting(state, &Interval::constant(self.acting(sample), dt)).torque
     }
 }
 

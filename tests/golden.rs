@@ -7,7 +7,7 @@
 mod common;
 
 use common::close;
-use stribeck::{Real, Sample, Spec, State};
+use stribeck::{Interval, Real, Sample, Spec, State};
 
 fn at(law: &str, effects: &[&str], values: &[f64], sample: &Sample<f64>) -> f64 {
     let spec = Spec::new(law, effects.iter().copied()).unwrap();
@@ -253,6 +253,10 @@ fn friction_follows_the_contacts_where_the_thermometer_lags() {
     assert_eq!(
         lagging.step(&mut one, &shown, 0.01).torque,
         exact.step(&mut other, &contacts, 0.01).torque
+    );
+    assert_eq!(
+        lagging.step_over(&mut one, &Interval::constant(shown, 0.01)).torque,
+        exact.step_over(&mut other, &Interval::constant(contacts, 0.01)).torque
     );
     assert_ne!(lagging.static_torque(&shown), exact.static_torque(&shown));
 }

@@ -10,7 +10,7 @@ use std::vec::Vec;
 
 use super::columns::{Channels, Columns};
 use super::error::BatchError;
-use super::{Locked, Outputs, samples};
+use super::{Locked, Outputs, first_parameter, samples};
 use crate::catalog::EffectId;
 use crate::composed::Spec;
 
@@ -26,10 +26,8 @@ pub(super) fn settle_slopes(
     wanted: &[usize],
     slopes: &mut [f64],
 ) -> Result<(), BatchError> {
-    let lags = spec.effects().contains(EffectId::ThermometerLag);
-    let place = spec.parameters().position(|parameter| parameter.name == "thermometer_lag");
-    let own = wanted.iter().position(|&index| Some(index) == place);
-    let (Some(own), true) = (own, lags) else { return Ok(()) };
+    let Some(lag) = first_parameter(spec, EffectId::ThermometerLag) else { return Ok(()) };
+    let Some(own) = wanted.iter().position(|&index| index == lag) else { return Ok(()) };
     let rates = [columns.channels.temperature_rate, columns.smooth.temperature_rate];
     let fastest =
         rates.into_iter().flatten().flatten().fold(0.0, |most, rate| rate.abs().max(most));

@@ -167,7 +167,7 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> (Recorded<'r>, Optio
     let Ok((model, sample)) = graph::model(recorder, spec) else {
         return (Recorded::Known(f64::NAN), None);
     };
-    match model.bristle(&sample) {
+    match model.bristle(&model.acting(&sample)) {
         Some(bristle) if model.has_state() => {
             let split = model.split(&sample);
             let end = split.dry();

@@ -169,6 +169,7 @@ pub(crate) fn gradient_and_range(
     let out = Outputs { torque: &mut *torque, slopes: &mut *slopes };
     if !spec.with(values)?.runs_side_by_side() {
         samples::in_passes(spec, values, columns, wanted, torque, slopes)?;
+        by_temperature::settle_slopes(spec, values, columns, wanted, slopes)?;
     } else if columns.stand_alone(spec) {
         return in_one_pass(spec, values, columns, wanted, out);
     } else {
@@ -270,6 +271,13 @@ pub fn split(
     Ok(parts)
 }
 
+/// The place of the first parameter of an effect, if the model has the effect.
+fn first_parameter(spec: &Spec, effect: EffectId) -> Option<usize> {
+    let name = effect.info().parameters.first()?.name;
+    let present = spec.effects().contains(effect);
+    spec.parameters().position(|parameter| present && parameter.name == name)
+}
+
 /// Treatment of samples at which no motor torque moves the joint.
 #[derive(Clone, Copy, PartialEq)]
 enum Locked {
@@ -366,10 +374,7 @@ fn measured(
     };
     let Outputs { torque, slopes } = out;
     balanced(columns.channels, Outputs { torque: &mut *torque, slopes: &mut *slopes })?;
-    let place = |name| spec.parameters().position(|parameter| parameter.name == name);
-    let Some(delay) = place("delay").filter(|_| spec.effects().contains(EffectId::Delay)) else {
-        return Ok(());
-    };
+    let Some(delay) = first_parameter(spec, EffectId::Delay) else { return Ok(()) };
     let mut shifted = vec![0.0; torque.len()];
     let mut shifted_slopes = vec![0.0; slopes.len()];
     let both = Outputs { torque: &mut shifted, slopes: &mut shifted_slopes };

@@ -5,7 +5,7 @@ use std::vec::Vec;
 
 use super::columns::{Channels, Columns, Rows};
 use super::error::BatchError;
-use super::{Locked, Outputs, by_temperature, check_length, measured};
+use super::{Locked, Outputs, check_length, measured};
 use crate::composed::{Composed, Spec};
 use crate::dynamics::Interval;
 use crate::graph::Beginning;
@@ -16,18 +16,6 @@ const MAX_DIRECTIONS: usize = 16;
 
 /// Torque and derivatives sample by sample, a few derivatives at a time.
 pub(super) fn in_passes(
-    spec: &Spec,
-    values: &[f64],
-    columns: &Columns<'_>,
-    wanted: &[usize],
-    torque: &mut [f64],
-    slopes: &mut [f64],
-) -> Result<(), BatchError> {
-    some_in_passes(spec, values, columns, wanted, torque, slopes)?;
-    by_temperature::settle_slopes(spec, values, columns, wanted, slopes)
-}
-
-fn some_in_passes(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,
@@ -137,7 +125,7 @@ fn evaluate<S: Scalar>(
     let mut state = fresh;
     let mut starts = rows.starts().iter().copied().peekable();
     for (i, &dt) in rows.steps().iter().enumerate() {
-        let sample = model.acting(&channels.sample(i));
+        let sample = channels.sample(i);
         let beginning = starts.next_if(|&(row, _)| row == i).map(|(_, beginning)| beginning);
         match beginning {
             Some(Beginning::Settled) => state = model.settled(&sample),

@@ -59,8 +59,8 @@ impl Program {
             number(Operation::Column(TIME_STEP + parts.len()))
         });
         let dt = number(Operation::Column(TIME_STEP));
-        let torque = recorder
-            .id(model.step_over(&mut state, &Interval::constant(model.acting(&sample), dt)).torque);
+        let torque =
+            recorder.id(model.step_over(&mut state, &Interval::constant(sample, dt)).torque);
         let mut states = vec![];
         let _ = state.map(|part, number| {
             states.push(StateNumber { part, after: recorder.id(number) });
