@@ -88,16 +88,15 @@ def vectors(
     }
     dt = cycles(rows, rng).astype(form).astype(np.float64)
     friction = model.without_effect("delay")
-    given: ChannelArguments = {
-        name: column for name, column in channels.items() if name != "velocity"
+    # The core wants a column for what the model names, also where that has no influence.
+    read: ChannelArguments = {
+        name: channels.get(name, np.zeros(rows)) for name in friction.core.needs
     }
-    velocity = channels.get("velocity", np.zeros(rows))
     try:
         torque = friction.core.torque(
             friction.values,
             dt if friction.has_state else None,
-            velocity,
-            **given,
+            **read,
             single=precision == "f32",
         )
     except ValueError as error:

@@ -11,6 +11,7 @@ from stribeck.base.errors import spell_options
 from stribeck.base.version import __version__
 from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.describe import physically
+from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import catalog, effect_ids, law_ids
 from stribeck.recording.check import Check
 from stribeck.recording.names import CHANNELS
@@ -40,7 +41,9 @@ if TYPE_CHECKING:
     import jinja2
 
     from stribeck.diagnosis.result import Finding
+    from stribeck.models.model import Model
     from stribeck.projects.node import Node
+    from stribeck.recording.recording import Recording
     from stribeck.report.workbench.state import Joint
 
 #: The pages in their order, with their titles.
@@ -347,7 +350,7 @@ def _prove(bench: Workbench, joint: Joint | None) -> Values:
     r, model = project.recording, project.node.kept.model
     fastest = float(abs(r.velocity).max())
     hardest = float(abs(r.acceleration_smooth).max())
-    unseen = [] if project.diagnosis is None else [u.effect for u in project.diagnosis.untestable]
+    rows = () if project.diagnosis is None else project.diagnosis.untestable
     return {
         "certificate": None if joint.certificate is None else certificate_parts(joint.certificate),
         "passive": None if joint.certificate is None else joint.certificate.passive,
@@ -358,10 +361,18 @@ def _prove(bench: Workbench, joint: Joint | None) -> Values:
         "speed": typed(fastest),
         "acceleration": typed(hardest),
         "effects": [e for e in effect_ids() if not model.has(e)],
-        "unseen": unseen,
+        "unseen": [row.effect for row in rows if _can_be_planned(row.effect, model, r)],
         "planned": None if joint.plan is None else bench.spell(repr(joint.plan)),
         "figures": [] if joint.plan is None else [f"planned {name}" for name in PLANNED],
     }
+
+
+def _can_be_planned(effect: str, model: Model, recording: Recording) -> bool:
+    """Whether a motion can show the effect beside a model: not if that lacks what it acts on."""
+    own = of_catalog(effect)
+    if own.shown_beside is None:
+        return True
+    return own.refusal(model.with_effect(effect, {}), recording) is None
 
 
 def _export(bench: Workbench, joint: Joint | None) -> Values:
