@@ -29,8 +29,7 @@ def test_bounds_hold_the_start_and_scale_with_the_machine(
         frame.with_columns(torque=frame["torque"] * 50.0, load_torque=frame["load_torque"] * 50.0),
     )
     for effect in catalog()["effects"]:
-        base = () if effect == "quadrant" else base_of(effect)
-        spec = "+".join(["coulomb", *base, effect])
+        spec = "+".join(["coulomb", *base_of(effect), effect])
         m = model_for(spec, plain)
         lower, upper, start = bounds(m, plain)
         assert np.all(lower <= start) and np.all(start <= upper) and np.all(lower < upper), spec

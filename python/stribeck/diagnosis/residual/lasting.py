@@ -11,11 +11,12 @@ import numpy as np
 
 from stribeck.fitting.result import Fit
 
-#: Times over which the residual is compared with itself, s: after the noise, within a move.
-AFTER = (0.2, 0.4)
+#: The residual is compared with itself so many seconds later, after the noise, and up to twice as
+#: many, within a move.
+AFTER = 0.2
 #: Fewest samples between those compared, and fewest pairs of samples.
 FEWEST_STEPS, FEWEST_PAIRS = 5, 300
-#: Number of times in the range.
+#: Number of times from the first to the last.
 TIMES = 9
 
 
@@ -27,7 +28,7 @@ def lasting_square(fit: Fit) -> float:
     r = fit.recording
     if r.averaged:
         return 0.0
-    first = max(AFTER[0] * r.rate_hz, FEWEST_STEPS)
+    first = max(AFTER * r.rate_hz, FEWEST_STEPS)
     steps = np.unique(np.linspace(first, 2.0 * first, TIMES).round().astype(np.int64))
     residual = np.full(r.rows, np.nan)
     residual[fit.rows] = fit.residual[fit.rows] - fit.residual[fit.rows].mean()

@@ -116,9 +116,10 @@ def _unexplained(
         varying = varying_friction(fit, suspected=above > SUSPICIOUS)
     varying_share = min(varying.rms**2 / total, 1.0)
     lasting = min(lasting_square(fit) / total, 1.0)
-    shown = max(learned, varying_share, lasting)
+    share = max(learned, varying_share)
+    shown = max(share, lasting)
     if shown > STRUCTURE:
-        if max(learned, varying_share) <= STRUCTURE:
+        if share <= STRUCTURE:
             place = _lasting(lasting)
         else:
             place = _varying(fit, varying) if varying_share > learned else _place(fit)
@@ -126,7 +127,7 @@ def _unexplained(
     if explained is None:
         return Unexplained(None, None)
     if not floor.value or floor.is_reached_by(rms(fit.residual[fit.rows])):
-        return Unexplained(max(learned, varying_share), None)
+        return Unexplained(share, None)
     return Unexplained(above, _repeated(fit, floor.value))
 
 
