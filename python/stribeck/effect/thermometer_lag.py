@@ -14,8 +14,8 @@ def _without_temperature(model: Model, _: Recording | Array) -> str | None:
     if "temperature" in model.without_effect("thermometer_lag").core.needs:
         return None
     return (
-        f"thermometer_lag puts the temperature right, on which {model.spec} does not depend: add "
-        "temperature_dry or temperature_viscous, or leave the effect out"
+        f"thermometer_lag corrects the temperature, but friction of {model.spec} does not depend "
+        "on it: add temperature_dry or temperature_viscous, or leave the effect out"
     )
 
 

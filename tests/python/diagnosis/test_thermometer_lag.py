@@ -54,7 +54,7 @@ def test_it_is_found_after_the_temperature_and_said(tmp_path: Path) -> None:
 
 
 def test_friction_that_does_not_depend_on_temperature_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(sb.StribeckError, match="the temperature right, on which coulomb"):
+    with pytest.raises(sb.StribeckError, match="corrects the temperature, but friction of coulomb"):
         sb.fit("coulomb+thermometer_lag", record(tmp_path, joint()))
 
 
