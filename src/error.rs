@@ -73,7 +73,9 @@ impl fmt::Display for ModelError<'_> {
             }
             Self::Formula(error) => error.fmt(f),
             Self::Value { parameter, value } => {
-                write!(f, "parameter '{parameter}' cannot be {value}")
+                let admissible =
+                    if value.is_finite() { "a number above 0" } else { "a finite number" };
+                write!(f, "parameter '{parameter}' cannot be {value}; give {admissible}")
             }
         }
     }

@@ -43,8 +43,8 @@ class Problem:
         the identified rigid body.
     span : (start, stop) or None
         The samples over which a model with a state is evaluated; None: all.
-    loss_weight : array [n] or None
-        Weights of a robust loss, which multiply those of the recording.
+    loss_weight, held : arrays [n] or None
+        Weights of a robust loss, times those of the recording; a part of the torque that is held.
     """
 
     recording: Recording
@@ -53,11 +53,12 @@ class Problem:
     load: Array | None = None
     span: tuple[int, int] | None = None
     loss_weight: Array | None = None
+    held: Array | None = None
 
     @cached_property
     def known(self) -> Array:
-        """The part of the torque that is known before a fit: the load torque, where given, [n]."""
-        return self.recording.known_torque
+        """The torque known before a fit: the load torque, where given, and `held`, array [n]."""
+        return self.recording.known_torque + (0.0 if self.held is None else self.held)
 
     @cached_property
     def target(self) -> Array:

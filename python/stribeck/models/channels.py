@@ -68,11 +68,11 @@ def columns(
         The other channels in the order of `OTHER_CHANNELS`, arrays [n] or numbers.
     """
     given = dict(zip(OTHER_CHANNELS, others, strict=True))
-    speed = column(np.atleast_1d(velocity))
+    speed = column("velocity", np.atleast_1d(velocity))
 
     def filled(name: str) -> Array | None:
         values = given[name]
-        return None if values is None else column(values, speed.shape)
+        return None if values is None else column(name, values, speed.shape)
 
     external, load = filled("external_torque"), filled("load_torque")
     if external is None and load is not None and "external_torque" in core.needs:
@@ -80,7 +80,7 @@ def columns(
     step: float | Array | None = None
     if dt is not None:
         alone = np.ndim(dt) == 0 and speed.size > 0
-        steps = column(dt, None if alone else speed.shape)
+        steps = column("dt", dt, None if alone else speed.shape)
         if not np.isfinite(steps).all() or (steps < 0.0).any():
             raise SpecError("dt is not finite, or negative: give the steps in s")
         step = float(steps[0]) if alone else steps
@@ -110,15 +110,15 @@ def split_columns(
     A channel that is not given is at the middle of the operating `box`; the time is at the middle
     of the recording, the derivatives of load and temperature are 0.
     """
-    found = {"velocity": column(np.atleast_1d(velocity))}
+    found = {"velocity": column("velocity", np.atleast_1d(velocity))}
     for name in OTHER_CHANNELS:
         values = given.get(name)
         if values is None:
             values = _usual(core, name, box)
         if values is not None:
-            found[name] = column(np.atleast_1d(values))
+            found[name] = column(name, np.atleast_1d(values))
     size = max(values.size for values in found.values())
-    return {name: column(values, (size,)) for name, values in found.items()}
+    return {name: column(name, values, (size,)) for name, values in found.items()}
 
 
 def _usual(core: _core.Model, name: str, box: Mapping[str, tuple[float, float]]) -> float | None:
@@ -130,8 +130,8 @@ def _usual(core: _core.Model, name: str, box: Mapping[str, tuple[float, float]])
     return 0.5 * sum(box[name]) if name in box else None
 
 
-def column(values: ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
-    """`values` as a contiguous array of numbers, repeated to `shape` if one is given.
+def column(name: str, values: ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
+    """`values` of a channel as a contiguous array of numbers, repeated to `shape` if one is given.
 
     Raises
     ------
@@ -145,11 +145,11 @@ def column(values: ArrayLike, shape: tuple[int, ...] | None = None) -> Array:
         numbers = given.dtype.kind in "fiu"
     if not numbers or given.ndim > 1 or isinstance(given, np.ma.MaskedArray):
         what = f"an array {list(given.shape)} of {given.dtype.name}"
-        raise SpecError(f"a channel is {what}: give numbers, an array [n]")
+        raise SpecError(f"{name} is {what}: give numbers, an array [n]")
     if shape is not None and given.shape not in ((), (1,), shape):
         raise SpecError(
-            f"a channel has {given.size} samples where the velocity has {shape[0]}: give as many, "
-            f"or one number"
+            f"{name} has {given.size} samples where the others have {shape[0]}: give as many, or "
+            f"one number"
         )
     repeated = given if shape is None else np.broadcast_to(given, shape)
     return np.ascontiguousarray(repeated, dtype=np.float64)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -94,13 +95,20 @@ def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -
             continue
         rows = current.rows
         level = rms(current.weighted(current.residual[rows]))
-        rise = rms(current.weighted(without.residual[rows])) / level - 1.0
+        rise = _rise(rms(current.weighted(without.residual[rows])), level)
         lost = difference(without, current)
         certainty[finding.effect] = lost.certainty
-        gain[finding.effect] = held_out_square(without, current) / square - 1.0
+        gain[finding.effect] = _rise(held_out_square(without, current), square)
         chance = evidence(without, current).p_value
         # Among all effects a finding must be significant; there, it needs no further proof.
         doubtful = chance * len(effect_ids()) > SIGNIFICANCE
         if rise < least / 2 or chance > SIGNIFICANCE or (doubtful and lost.statistic <= SIMPLEST):
             rises[finding.effect] = lost.statistic
     return Needed(min(rises, key=lambda e: rises[e]) if rises else None, certainty, gain)
+
+
+def _rise(after: float, before: float) -> float:
+    """Relative rise of an error; infinite from an error of 0."""
+    if before > 0.0:
+        return after / before - 1.0
+    return math.inf if after > 0.0 else 0.0

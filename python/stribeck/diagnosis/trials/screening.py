@@ -84,15 +84,42 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
     """Try `effect` on few samples; None where the model cannot take it."""
     try:
         model = model_for(extended_model(before, effect), before.recording)
-        problem = _few_samples(problem_of(model, before), before.model)
-        lower, upper, first = bounds(model, before.recording)
+        problem = _few_samples(_memory_held(problem_of(model, before), before), before.model)
+        lower, upper, first = bounds(problem.model, before.recording)
         found = _search(problem, lower, upper, first, seed)
         if not np.isfinite(found.square):
             return None
         fall = _fall(before, problem, found, lower, upper)
     except StribeckError:
         return None
-    return Screened(effect, model.with_values(found.values), fall)
+    values = dict(zip(problem.model.names, found.values, strict=True))
+    held = [values.get(name, model.value(name)) for name in model.names]
+    return Screened(effect, model.with_values(held), fall)
+
+
+def _memory_held(problem: Problem, before: Fit) -> Problem:
+    """The problem without the effects of `before` that reach over samples; their torque is held.
+
+    Beside a bristle or a delay every step of a search would need all samples.
+    """
+    base = _without_memory(before.model)
+    if base is before.model:
+        return problem
+    held = before.prediction - replace(problem, model=base).predict(base.values)
+    added = [e for e in before.model.effects if e not in base.effects]
+    model = problem.model
+    for effect in added:
+        model = model.without_effect(effect)
+    return replace(problem, model=model, held=held)
+
+
+def _without_memory(model: Model) -> Model:
+    """The model without the effects through which earlier samples act."""
+    for effect in model.effects:
+        alone = replace(model, law="coulomb", effects=(effect,), own=(), values=np.empty(0))
+        if not alone.memoryless:
+            model = model.without_effect(effect)
+    return model
 
 
 def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Array) -> float:
@@ -101,11 +128,10 @@ def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Arr
         level = rms(problem.weighted(before.held_out_residual[problem.rows]))
         left = rms(problem.weighted(held_out_residual(problem, found.values, lower, upper)))
     else:
-        base = replace(problem, model=before.model)
-        least, most, _ = bounds(before.model, before.recording)
-        level = np.sqrt(
-            _steps(base, before.model.values[None, :], least, most, FIRST_STEPS)[0].square
-        )
+        simpler = _without_memory(before.model)
+        base = replace(problem, model=simpler)
+        least, most, _ = bounds(simpler, before.recording)
+        level = np.sqrt(_steps(base, simpler.values[None, :], least, most, FIRST_STEPS)[0].square)
         left = np.sqrt(found.square)
     return 1.0 - float(left / level) if level > 0.0 else 0.0
 
@@ -113,11 +139,11 @@ def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Arr
 def _few_samples(problem: Problem, base: Model) -> Problem:
     """Few samples of a memoryless model; for a new state, the stretch with the most reversals.
 
-    All samples for a delay, which may show anywhere, and for any effect beside a state or a delay.
+    All samples for a delay, which may show anywhere, and for any effect beside a state.
     """
     if problem.model.memoryless:
         return problem.thinned(ROWS)
-    is_new_state = problem.model.has_state and not base.has_state
+    is_new_state = problem.model.has_state and not _without_memory(base).has_state
     return problem.window(SAMPLES) if is_new_state else problem
 
 

@@ -47,6 +47,15 @@ def check_torque(view: View) -> Check | None:
             f"give {_mapped(view, other)}, or the motion of the torque's joint",
         )
     friction = found.friction
+    torque = view.recording.torque
+    if np.ptp(torque) == 0.0:
+        return Check(
+            "torque",
+            True,
+            f"cannot check the torque against the motion: the torque "
+            f"('{view.column('torque')}') is {torque[0]:.3g} {view.recording.torque_unit} in every "
+            f"sample, which is no measurement",
+        )
     if friction is None:
         return Check(
             "torque",
@@ -103,8 +112,8 @@ def _effort(view: View) -> str:
 
 
 def _interval(estimate: Estimate) -> str:
-    low, high = estimate.interval
-    return f"{low:.3g} to {high:.3g}"
+    ends = [f"{end:.3g}" for end in estimate.interval]
+    return " to ".join(dict.fromkeys(ends))
 
 
 def _other_joint(view: View, found: Dissipation) -> str | None:
