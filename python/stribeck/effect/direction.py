@@ -21,7 +21,9 @@ def one_direction(facts: RecordingFacts) -> Obstacle | None:
     if facts.both_directions:
         return None
     way = "forward" if facts.forward > 0.5 else "backward"
-    return Obstacle(f"the joint moves only {way}", "move in both directions over the same stroke")
+    return Obstacle(
+        f"all scored samples move {way}", "move in both directions over the same stroke"
+    )
 
 
 def _where(before: Identified, after: Identified) -> str:

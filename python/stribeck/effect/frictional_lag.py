@@ -25,6 +25,8 @@ from stribeck.recording.recording import Recording
 SLOW_PASS = 2.0
 #: A lag beyond this share of a typical move is none: friction would belong to another move.
 LONGEST = 0.1
+#: A low-pass averages a derived velocity over this part of a period of its cut-off to each side.
+QUARTER = 0.25
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
@@ -103,6 +105,11 @@ def _unresolved(after: Identified) -> str | None:
         )
     if lag < r.scales()["sample_period"]:
         return f"friction would lag by {number(1e3 * lag)} ms, less than a sample"
+    if r.columns["velocity"].derived and r.cutoff_hz is not None and lag < QUARTER / r.cutoff_hz:
+        return (
+            f"friction would lag by {number(1e3 * lag)} ms, less than the time over which the "
+            f"low-pass of the velocity at {number(r.cutoff_hz)} Hz averages to each side"
+        )
     return None
 
 

@@ -14,6 +14,7 @@ from stribeck import _core
 from stribeck.base.errors import FitError
 from stribeck.base.pool import threads
 from stribeck.identify.measured import NOT_SUMMED, Found, Measured, search_options
+from stribeck.identify.smooth_channels import smooth_channels
 from stribeck.identify.triangle import Triangle, triangles
 from stribeck.identify.weights import root_weights
 from stribeck.models.channels import ChannelArguments
@@ -160,23 +161,8 @@ class Problem:
 
     @cached_property
     def _smooth(self) -> dict[str, Array] | None:
-        """Zero-phase smoothed channels, which `delay` shifts: so it cannot reduce noise."""
-        r = self.recording
-        if "delay" not in self.model.effects:
-            return None
-        velocity = r.denoised("velocity")
-        smooth = {
-            # The direction of moving samples is certain; smoothing must not reverse it.
-            "velocity": np.where(r.moving, np.copysign(velocity, r.velocity), velocity),
-            "acceleration": r.denoised("acceleration"),
-        }
-        if r.position is not None and r.position_smooth is not None:
-            smooth["position"] = r.denoised("position")
-        if r.load_torque is not None and r.load_torque_smooth is not None:
-            smooth["load_torque"] = r.denoised("load_torque")
-        elif self.load is not None:
-            smooth["load_torque"] = self.load
-        return smooth
+        """What a delay shifts; None for a model without one."""
+        return smooth_channels(self.recording, self.load) if "delay" in self.model.effects else None
 
     def _channels_at(self, at: slice | NDArray[np.intp]) -> ChannelArguments:
         """The channels of some samples, for models with memory."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stribeck.base.errors import option
 from stribeck.recording.arrays import Floats, Ints, bools, floats, floats_or_none, ints
 from stribeck.recording.channels import Channels, Layout
 from stribeck.recording.loads import Loads
@@ -13,6 +14,9 @@ from stribeck.recording.recording import Recording
 from stribeck.recording.rows import SIGMAS
 
 __all__ = ["Clock", "Motion", "complete"]
+
+#: A lower threshold is proposed if it scores so many times as many samples.
+_MORE = 2.0
 
 
 @dataclass(frozen=True)
@@ -25,6 +29,8 @@ class Motion:
         Standard deviation of the noise of the velocity.
     cutoff_hz
         Of the low-pass that made the smooth arrays; None: they are the measured ones.
+    noise_left
+        Standard deviation of the noise that a low-pass leaves in the velocity; None without one.
     """
 
     position: Floats | None
@@ -35,6 +41,7 @@ class Motion:
     acceleration_smooth: Floats
     velocity_noise: float
     cutoff_hz: float | None
+    noise_left: float | None = None
 
 
 @dataclass(frozen=True)
@@ -63,6 +70,8 @@ def complete(
             f"samples faster than {given:g} {layout.position_unit}/s move, as given (five times "
             f"the noise of the velocity is {SIGMAS * motion.velocity_noise:.3g})"
         )
+    elif motion.noise_left is not None:
+        _propose(data, layout, speed, threshold, SIGMAS * motion.noise_left)
     return Recording(
         path=data.path,
         sha256=data.prepared.source.sha256,
@@ -100,3 +109,16 @@ def complete(
         weight=floats_or_none(data.values.get("weight")),
         motor=dict(data.prepared.settings.mechanics.motor),
     )
+
+
+def _propose(data: Channels, layout: Layout, speed: Floats, threshold: float, lower: float) -> None:
+    """Note that the noise of the velocity hides motion which the filtered velocity shows."""
+    scored, more = (float(np.mean(speed > bound)) for bound in (threshold, lower))
+    if more > _MORE * scored:
+        unit = f"{layout.position_unit}/s"
+        data.notes.append(
+            f"only {100 * scored:.2g} % of the samples are scored, those faster than five times "
+            f"the noise of the velocity ({threshold:.2g} {unit}); the low-pass leaves less noise "
+            f"(five times: {lower:.2g} {unit}): {option('moving_above', f'{lower:.2g}')} scores "
+            f"{100 * more:.2g} %"
+        )

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.derive import HIGHEST, Smoother, choose_cutoff, motion_band
 
-__all__ = ["BANDS", "acceleration_cutoff", "filter_text", "slope"]
+__all__ = ["BANDS", "acceleration_cutoff", "filter_text", "filtered_noise", "slope"]
 
 #: The cut-off of a derived acceleration is at most this many times the band of the motion.
 BANDS = 20.0
@@ -24,6 +26,24 @@ def slope(time: Floats, value: Floats, segment: Ints) -> tuple[Floats, float | N
     """
     cutoff = choose_cutoff(time, value, segment, 2)
     return Smoother(time, segment, cutoff).smooth(value, 1), cutoff
+
+
+def filtered_noise(noise: float, period: float, cutoff: float | None) -> float | None:
+    """Standard deviation of white noise after a derivative by time and a low-pass; None: no filter.
+
+    The spectral density of the noise, ``2 noise^2 period``, times ``(2 pi f)^2``, up to the
+    cut-off.
+
+    Parameters
+    ----------
+    noise
+        Standard deviation of the noise of the signal.
+    period
+        Sampling period, s.
+    """
+    if cutoff is None:
+        return None
+    return 2.0 * math.pi * noise * math.sqrt(2.0 * period * cutoff**3 / 3.0)
 
 
 def acceleration_cutoff(

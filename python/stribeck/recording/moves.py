@@ -88,6 +88,30 @@ def _turns(recording: Recording, at: NDArray[np.intp], new: NDArray[np.bool_]) -
     return np.cumsum(np.where(new, 0, passed))
 
 
+def directions(recording: Recording) -> Floats:
+    """The direction of motion of each sample, array [n] of 1 and -1; at rest that of the nearest
+    moving sample.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.arange(0.0, 1.0, 0.1)
+    >>> v = np.array([-1.0, -1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
+    >>> r = Recording.from_columns(time=t, velocity=v, torque=np.ones(t.size))
+    >>> directions(r).tolist()
+    [-1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
+    """
+    sign = np.where(recording.velocity < 0.0, -1.0, 1.0)
+    at = np.flatnonzero(recording.moving)
+    if at.size == 0:
+        return sign
+    rows = np.arange(sign.size)
+    after = np.minimum(np.searchsorted(at, rows), at.size - 1)
+    before = np.maximum(after - 1, 0)
+    nearer = np.abs(at[after] - rows) < np.abs(rows - at[before])
+    return sign[at[np.where(nearer, after, before)]]
+
+
 def move_seconds(recording: Recording) -> float:
     """Median duration of a move in s, weighted by duration; 0 without motion."""
     move = moves(recording)

@@ -8,7 +8,12 @@ from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.channels import Channels, Layout
 from stribeck.recording.complete import Clock, Motion, complete
 from stribeck.recording.derive import Smoother, choose_cutoff
-from stribeck.recording.derived_motion import acceleration_cutoff, filter_text, slope
+from stribeck.recording.derived_motion import (
+    acceleration_cutoff,
+    filter_text,
+    filtered_noise,
+    slope,
+)
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
 from stribeck.recording.mend.late_velocity import Moved, late, note, torque_follows
@@ -60,11 +65,13 @@ def _motion(
         smoother = Smoother(time, segment, cutoff)
         velocity_smooth = smoother.smooth(velocity)
         origin, source, derivative = "velocity", velocity, 1
+        left = None
     else:
         assert position is not None
         step = typical if typical > 0.0 else float(np.median(np.diff(time)))
         sigma = slope_noise(time, position, segment, step) if sigma is None else sigma
         velocity, cutoff = slope(time, position, segment)
+        left = filtered_noise(noise_level(time, position, segment), step, cutoff)
         velocity_smooth = velocity
         smoother = Smoother(time, segment, cutoff)
         origin, source, derivative = "position", position, 2
@@ -90,6 +97,7 @@ def _motion(
         acceleration_smooth,
         float(sigma or 0.0),
         cutoff,
+        left,
     )
     return motion, smoother
 
