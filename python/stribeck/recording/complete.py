@@ -119,6 +119,6 @@ def _propose(data: Channels, layout: Layout, speed: Floats, threshold: float, lo
         data.notes.append(
             f"only {100 * scored:.2g} % of the samples are scored, those faster than five times "
             f"the noise of the velocity ({threshold:.2g} {unit}); the low-pass leaves less noise "
-            f"(five times: {lower:.2g} {unit}): {option('moving_above', f'{lower:.2g}')} scores "
+            f"(five times: {lower:.2g} {unit}): {option('moving_above', float(f'{lower:.2g}'))} scores "
             f"{100 * more:.2g} %"
         )

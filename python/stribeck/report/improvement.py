@@ -142,7 +142,7 @@ def summary_sentence(improvement: Improvement) -> str:
     if floor is None:
         return text + "."
     noise = f"noise floor {plain(floor)} {unit}"
-    if final.rmse_held_out < LARGER * floor:
+    if final.rmse_held_out < LARGER * floor and not improvement.unexplained.is_structure:
         return f"{text}, and the remaining error is noise ({noise})."
     return f"{text} ({noise})."
 

@@ -84,3 +84,19 @@ def test_the_best_of_the_minima_of_a_delay_is_found(seed: int, tmp_path: Path) -
     trial = try_effect(fitted, found)
     assert trial is not None
     assert trial.fit.rmse < 1.01 * sb.fit("coulomb+delay", recording).rmse
+
+
+def test_a_curve_is_found_beside_a_delay() -> None:
+    """The delay keeps its value: its part of the torque is held."""
+    t = np.arange(0.0, 60.0, 0.01)
+    v = 0.6 * np.sin(1.3 * t) * np.sin(0.21 * t)
+    late = np.interp(t - 0.03, t, v)
+    torque = np.sign(late) * (2.0 + 1.5 * np.exp(-np.abs(late) / 0.08)) + 3.0 * late
+    torque += 0.03 * np.random.default_rng(0).standard_normal(t.size)
+    r = sb.Recording.from_columns(time=t, velocity=v, friction_torque=torque)
+    before = sb.fit("coulomb+delay", r)
+    found = screened(before, "stribeck")
+    assert found is not None and found.fall > 0.3
+    assert found.model.value("delay") == before.model.value("delay")
+    trial = try_effect(before, found)
+    assert trial is not None and trial.fit.model.value("delay") == pytest.approx(0.03, abs=2e-3)

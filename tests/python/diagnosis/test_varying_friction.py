@@ -55,7 +55,7 @@ def test_a_diagnosis_says_so(tmp_path: Path) -> None:
     fit = sb.fit("coulomb", record(tmp_path, moved(1, 0.3, 0.02)))
     found = sb.diagnose(fit, rejected=["drift"])
     assert found.verdict == "unexplained"
-    assert "no recorded channel explains it" in str(found.unexplained.where)
+    assert "no effect of the catalog explains it" in str(found.unexplained.where)
 
 
 def test_one_direction_says_nothing(tmp_path: Path) -> None:

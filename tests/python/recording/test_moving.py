@@ -8,6 +8,8 @@ import pytest
 import scipy
 import stribeck as sb
 from stribeck.diagnosis.inspect import inspect
+from stribeck.recording.derive import Smoother
+from stribeck.recording.derived_motion import filtered_noise
 from stribeck.recording.load import read
 from stribeck.recording.rows import noise_level, slope_noise
 from stribeck.report.inspection import inspection_text
@@ -121,3 +123,28 @@ def test_what_does_not_move_is_inspected_all_the_same(write):
     assert shown.problem is not None and "does not" in shown.problem and shown.testable == ()
     (wrong,) = [c for c in shown.checks if c.check == "velocity"]
     assert not wrong.ok and "does not" in inspection_text(shown)
+
+
+def test_few_scored_samples_are_told_with_a_threshold_that_scores_more(write):
+    time, position, velocity = _moves(200.0, 100.0, speed=1.0)
+    coarse = np.round(position / 1.5e-3) * 1.5e-3
+    recording = read(write(_frame(time, coarse, velocity)))
+    told = [note for note in recording.notes if "of the samples are scored" in note]
+    assert len(told) == 1
+    lower = float(told[0].split("moving_above=")[1].split("`")[0])
+    again = read(write(_frame(time, coarse, velocity)), moving_above=lower)
+    assert again.moving.mean() > 2.0 * recording.moving.mean()
+    fast = np.abs(velocity) > 2.0 * lower
+    assert again.moving[fast].mean() > 0.99
+    fine = read(write(_frame(time, position, velocity)))
+    assert not any("of the samples are scored" in note for note in fine.notes)
+
+
+def test_the_noise_that_a_low_pass_leaves_in_a_derivative():
+    time = np.arange(20000) / 200.0
+    segment = np.zeros(time.size, dtype=np.int64)
+    noise = 2e-3 * np.random.default_rng(0).standard_normal(time.size)
+    left = Smoother(time, segment, 10.0).smooth(noise, 1)
+    # The filter is not steep: noise above its cut-off adds to it.
+    assert np.std(left[200:-200]) == pytest.approx(filtered_noise(2e-3, 0.005, 10.0), rel=0.3)
+    assert filtered_noise(2e-3, 0.005, None) is None

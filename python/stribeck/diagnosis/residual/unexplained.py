@@ -134,7 +134,7 @@ def _unexplained(
 def _varying(fit: Fit, varying: VaryingFriction) -> str:
     return (
         f"friction varies by {number(varying.rms, 2)} {fit.model.torque_unit} (RMS) during the "
-        f"recording, equally in both directions, and no recorded channel explains it"
+        f"recording, equally in both directions, and no effect of the catalog explains it"
     )
 
 

@@ -155,6 +155,13 @@ def test_a_lag_beyond_a_move_or_within_a_sample(stribeck_curve: Claim) -> None:
     assert long is not None and "typical move" in long
     short = unresolved(with_values(claim, frictional_lag=1e-4))
     assert short is not None and "less than a sample" in short
+    r = claim.after.recording
+    derived = replace(r.columns["velocity"], derived=True)
+    filtered = replace(r, cutoff_hz=5.0, columns={**r.columns, "velocity": derived})
+    blurred = replace(claim, after=replace(claim.after, recording=filtered))
+    assert unresolved(with_values(blurred, frictional_lag=0.06)) is None
+    low_pass = unresolved(with_values(blurred, frictional_lag=0.04))
+    assert low_pass is not None and "low-pass of the velocity" in low_pass
 
 
 def test_presliding_within_a_sample(tmp_path: Path) -> None:
