@@ -27,14 +27,24 @@ evaluate_option = click.option(
 )
 
 
-def judged(others: tuple[str, ...], reading: ReadOptions) -> list[Recording]:
-    """The recordings of `--evaluate`, read like the data but each with its own sidecar."""
+def judged(
+    others: tuple[str, ...], reading: ReadOptions, fitted: Recording | None = None
+) -> list[Recording]:
+    """The recordings of `--evaluate`, read like the data but each with its own sidecar.
+
+    Raises
+    ------
+    FitError
+        One of them is `fitted`, the data that a model will be fitted to.
+    """
     made = []
     for other in others:
         recording = read_with(other, reading)
         for note in recording.notes:
             say(f"note: {other}: {note}")
         recording.require_consistent()
+        if fitted is not None:
+            refuse_fitted_on(recording, fitted.hashes)
         made.append(recording)
     return made
 

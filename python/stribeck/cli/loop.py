@@ -205,7 +205,8 @@ def add(
             f"({', '.join(named) or 'none'}): write `stribeck add DATA MODEL EFFECT`"
         )
     model, effect = named
-    recording, others = read_recording(data, reading), judged(evaluate, reading)
+    recording = read_recording(data, reading)
+    others = judged(evaluate, reading, recording)
     before = written_fit(
         model, written, recording, parameters_brought_by(effect), starts=starts, seed=seed
     )
@@ -288,7 +289,8 @@ def improve(
             streamed = opened.improve(start, told=bar.show_pass, **options)
         improvement = streamed.found
     else:
-        recording, others = read_recording(data, reading), judged(evaluate, reading)
+        recording = read_recording(data, reading)
+        others = judged(evaluate, reading, recording)
         improvement = improve_from(start, recording, sample_rows=streaming.sample_rows, **options)
         improvement = replace(improvement, final=evaluated_on(improvement.final, others))
     if output is not None:

@@ -31,6 +31,10 @@ OTHER_CHANNELS = (
 )
 
 
+#: Channels that follow from the balance of torques, or from the load torque, where they can.
+FOLLOWING = ("motor_torque", "external_torque")
+
+
 class Columns(TypedDict):
     """Channels of n samples, in SI units and degC; None where one is not given."""
 
@@ -84,6 +88,7 @@ def columns(
         if not np.isfinite(steps).all() or (steps < 0.0).any():
             raise SpecError("dt is not finite, or negative: give the steps in s")
         step = float(steps[0]) if alone else steps
+    _refuse_missing([name for name in core.needs if name in given and given[name] is None])
     return {
         "dt": step,
         "velocity": speed,
@@ -97,6 +102,20 @@ def columns(
         "load_torque_curvature": filled("load_torque_curvature"),
         "temperature_rate": filled("temperature_rate"),
     }
+
+
+def _refuse_missing(names: Sequence[str]) -> None:
+    """Refuse a call that lacks several channels, with the names of all; one is told by the core.
+
+    Raises
+    ------
+    SpecError
+        Those that follow from others are not counted.
+    """
+    plain = [name for name in names if name not in FOLLOWING]
+    if len(plain) > 1:
+        listed = ", ".join(f"'{name}'" for name in plain[:-1])
+        raise SpecError(f"the model needs the columns {listed} and '{plain[-1]}'")
 
 
 def split_columns(

@@ -115,10 +115,9 @@ def _propose(data: Channels, layout: Layout, speed: Floats, threshold: float, lo
     """Note that the noise of the velocity hides motion which the filtered velocity shows."""
     scored, more = (float(np.mean(speed > bound)) for bound in (threshold, lower))
     if more > _MORE * scored:
-        unit = f"{layout.position_unit}/s"
+        unit, do = f"{layout.position_unit}/s", option("moving_above", float(f"{lower:.2g}"))
         data.notes.append(
             f"only {100 * scored:.2g} % of the samples are scored, those faster than five times "
             f"the noise of the velocity ({threshold:.2g} {unit}); the low-pass leaves less noise "
-            f"(five times: {lower:.2g} {unit}): {option('moving_above', float(f'{lower:.2g}'))} scores "
-            f"{100 * more:.2g} %"
+            f"(five times: {lower:.2g} {unit}): {do} scores {100 * more:.2g} %"
         )

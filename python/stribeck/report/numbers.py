@@ -113,7 +113,7 @@ def percent(share: float) -> str:
 
 
 def confidence_words(confidence: float) -> str:
-    """A confidence (0..1) in words and as a number.
+    """A confidence (0..1) in words and as a number; the words are those of the number as printed.
 
     Examples
     --------
@@ -128,7 +128,8 @@ def confidence_words(confidence: float) -> str:
         0.45: "as likely as not",
         0.05: "possible",
     }
-    words = next((said for least, said in levels.items() if confidence >= least), "unlikely")
+    shown = round(confidence, 2)
+    words = next((said for least, said in levels.items() if shown >= least), "unlikely")
     return f"{words} (confidence {confidence_text(confidence)})"
 
 
@@ -140,9 +141,10 @@ def hedge(confidence: float) -> str:
     >>> hedge(0.98), hedge(0.9), hedge(0.3)
     ('', 'probably', 'perhaps')
     """
-    if confidence >= 0.95:
+    shown = round(confidence, 2)
+    if shown >= 0.95:
         return ""
-    return "probably" if confidence >= 0.55 else "perhaps"
+    return "probably" if shown >= 0.55 else "perhaps"
 
 
 def confidence_text(confidence: float) -> str:

@@ -144,6 +144,8 @@ def test_errors_on_another_recording(run: Run) -> None:
     assert "On recordings that were not fitted" in added
     code, _, err = run("compare", "run1.csv", "coulomb", "--evaluate", "run1.csv")
     assert code == 2 and "the model is fitted to it" in err
+    code, _, err = run("improve", "run1.csv", "coulomb", "--evaluate", "run1.csv")
+    assert code == 2 and "the model is fitted to it" in err and "searching" not in err
 
 
 def test_a_model_file_is_not_judged_where_it_was_fitted(run: Run) -> None:
