@@ -143,6 +143,8 @@ def hysteresis(page: Page) -> Figure:
     _paths(page, right, signed, shown, r)
     right.set_xlabel(f"displacement since reversal · sgn v [{r.position_unit}]")
     right.set_ylabel(_friction_label(first))
+    for axes in (left, right):
+        axes.locator_params(axis="x", nbins=5)
     return page.finished([left, right])
 
 

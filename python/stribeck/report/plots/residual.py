@@ -141,7 +141,7 @@ def spectrum(page: Page) -> Figure:
         axes.loglog(*_density(fit.residual[rows], r.rate_hz), **page.line(k))
     axes.grid(True, which="minor", color="#f2f2f2", linewidth=0.4)
     axes.set_xlabel("frequency [Hz]")
-    axes.set_ylabel(f"amplitude density [{r.torque_unit}/√Hz]")
+    axes.set_ylabel(f"density of the residual [{r.torque_unit}/√Hz]")
     return page.finished([axes], measured="measured friction", as_line=True)
 
 
