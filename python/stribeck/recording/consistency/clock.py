@@ -7,6 +7,7 @@ import numpy as np
 from stribeck.base.errors import option
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.view import View
+from stribeck.recording.recording import Recording
 
 __all__ = ["check_clock"]
 
@@ -15,6 +16,8 @@ _EPOCH = (1e9, 4e9)
 _FRACTIONS = {"ms": 1e3, "us": 1e6, "ns": 1e9}
 #: A clock of whole numbers that ticks no faster than this is in a fraction of a second, Hz.
 _SLOW = 1.0
+#: Steps that vary by more than this share (RMS) are told; a longer step has lost rows.
+_UNEVEN, _LOST = 0.05, 1.9
 
 
 def check_clock(view: View) -> Check | None:
@@ -55,4 +58,21 @@ def check_clock(view: View) -> Check | None:
     said = f"{rate:.4g} Hz over {float(recording.dt.sum()):.4g} s"
     if not confirmed:
         said += ", the unit of time is not checked by the motion"
+    uneven = _unevenness(recording)
+    if uneven > _UNEVEN:
+        said += (
+            f"; steps vary by {100.0 * uneven:.2g} % (RMS): if time stamps jitter, which makes "
+            "velocity and acceleration uncertain, log the clock of the controller"
+        )
     return Check("time", True, said)
+
+
+def _unevenness(recording: Recording) -> float:
+    """RMS deviation of the steps within segments from their median, as a share of it."""
+    steps = recording.dt[recording.dt > 0.0]
+    if not steps.size:
+        return 0.0
+    middle = float(np.median(steps))
+    # A step of several periods is a lost row, not an uneven clock.
+    single = steps[steps < _LOST * middle]
+    return float(np.sqrt(np.mean((single / middle - 1.0) ** 2)))

@@ -36,6 +36,22 @@ def test_agreement_is_said(write):
     assert _check(recording, "velocity").said == "velocity = d(position)/dt within 0.01 %"
 
 
+def test_uneven_time_stamps_are_told(write):
+    frame = joint(rows=2000)
+    jitter = 2e-3 * np.random.default_rng(0).uniform(-1.0, 1.0, 2000)
+    uneven = _check(read(write(frame.with_columns(pl.col("time") + jitter))), "time")
+    assert uneven.ok and "steps vary by" in uneven.said and "clock of the controller" in uneven.said
+    # Lost rows leave longer steps, not an uneven clock.
+    lost = frame.filter(np.arange(2000) % 37 != 0)
+    assert "steps vary" not in _check(read(write(lost)), "time").said
+
+
+def test_a_torque_that_is_the_same_in_every_sample_is_told(write):
+    constant = read(write(joint(rows=2000).drop("load_torque").with_columns(torque=pl.lit(1.5))))
+    assert "is 1.5 N m in every sample" in _check(constant, "torque").said
+    assert sb.improve("coulomb", constant).final.rmse >= 0.0
+
+
 @pytest.mark.parametrize("noise", [0.0, 1e-4, 1e-2, 0.3])
 @pytest.mark.parametrize("step", [0.0, 1e-4, 1e-2])
 def test_noise_and_encoder_steps_are_no_contradiction(write, noise, step):
