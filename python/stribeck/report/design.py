@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from stribeck.report.layout import bullets, joined, notes_text, paragraph, table
 from stribeck.report.numbers import listed, plain, unit_text
 from stribeck.report.style import AFTER, BEFORE, headline, new_figure, style
@@ -16,13 +18,16 @@ if TYPE_CHECKING:
 
 def plan_text(plan: Plan) -> str:
     """A plan at a glance: the motion, what it shows, what it cannot do."""
-    limits, unit = plan.limits, plan.model.position_unit
+    limits, unit, made = plan.limits, plan.model.position_unit, plan.motion
     effects = [row.effect for row in plan.prospects]
     motion = (
         f"A motion of {plain(plan.duration)} s to test {listed(effects)} with the model "
-        f"{plan.model.spec}: {plan.kind}, position {plain(limits.low)} to {plain(limits.high)} "
-        f"{unit}, speed up to {plain(limits.speed)} {unit}/s, acceleration up to "
-        f"{plain(limits.acceleration)} {unit}/s2."
+        f"{plan.model.spec}: {plan.kind}, position {plain(float(made.position.min()))} to "
+        f"{plain(float(made.position.max()))} {unit} (limits {plain(limits.low)} to "
+        f"{plain(limits.high)}), speed up to {plain(float(np.abs(made.velocity).max()))} {unit}/s "
+        f"(limit {plain(limits.speed)}), acceleration up to "
+        f"{plain(float(np.abs(made.acceleration).max()))} {unit}/s2 (limit "
+        f"{plain(limits.acceleration)})."
     )
     smallest = (
         "Smallest effect that is significant 19 times in 20, as the value of its parameter and "
