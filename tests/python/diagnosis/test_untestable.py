@@ -60,7 +60,7 @@ def test_one_direction(tmp_path: Path) -> None:
     )
     assert {"direction", "offset", "stribeck", "position", "presliding"} <= set(found)
     assert {"spring", "ripple"} <= set(found)
-    assert "only forward" in found["direction"]
+    assert "move forward" in found["direction"]
     assert "reversals" in found["presliding"]
     assert "inertia" not in found and "gravity" not in found
 
