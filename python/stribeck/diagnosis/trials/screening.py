@@ -93,22 +93,21 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
     except StribeckError:
         return None
     values = dict(zip(problem.model.names, found.values, strict=True))
-    held = [values.get(name, model.value(name)) for name in model.names]
-    return Screened(effect, model.with_values(held), fall)
+    found_or_held = [values.get(name, model.value(name)) for name in model.names]
+    return Screened(effect, model.with_values(found_or_held), fall)
 
 
 def _memory_held(problem: Problem, before: Fit) -> Problem:
-    """The problem without the effects of `before` that reach over samples; their torque is held.
+    """The problem without the effects of `before` through which earlier samples act.
 
-    Beside a bristle or a delay every step of a search would need all samples.
+    Their part of the torque is held: with them, every step of a search would need all samples.
     """
     base = _without_memory(before.model)
     if base is before.model:
         return problem
     held = before.prediction - replace(problem, model=base).predict(base.values)
-    added = [e for e in before.model.effects if e not in base.effects]
     model = problem.model
-    for effect in added:
+    for effect in set(before.model.effects).difference(base.effects):
         model = model.without_effect(effect)
     return replace(problem, model=model, held=held)
 
@@ -139,7 +138,7 @@ def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Arr
 def _few_samples(problem: Problem, base: Model) -> Problem:
     """Few samples of a memoryless model; for a new state, the stretch with the most reversals.
 
-    All samples for a delay, which may show anywhere, and for any effect beside a state.
+    All samples for a delay, which may show anywhere, and for any effect beside the state of a law.
     """
     if problem.model.memoryless:
         return problem.thinned(ROWS)
