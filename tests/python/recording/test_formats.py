@@ -144,6 +144,9 @@ def test_no_such_file_and_directory(tmp_path, frame):
     frame.write_parquet(tmp_path / "joint_1.parquet")
     with pytest.raises(RecordingError, match=r"no such file; did you mean 'joint_1.parquet'\?"):
         read(tmp_path / "joint_l.parquet")
+    # The same ending does not make a name similar.
+    with pytest.raises(RecordingError, match=r"no such file$"):
+        read(tmp_path / "arms.parquet")
     (tmp_path / "empty").mkdir()
     with pytest.raises(RecordingError, match="there are no recordings in this folder"):
         read(tmp_path / "empty")

@@ -252,7 +252,9 @@ def short(error: BaseException | str) -> str:
 
 
 def _beside(path: Path) -> str:
+    """The hint at a file of a similar name; a like ending alone makes none similar."""
     try:
-        return nearest(path.name, [p.name for p in path.parent.iterdir() if p.is_file()])
+        files = [p for p in path.parent.iterdir() if p.is_file() and nearest(path.stem, [p.stem])]
+        return nearest(path.name, [p.name for p in files])
     except (OSError, ValueError):
         return ""
