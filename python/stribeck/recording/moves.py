@@ -89,8 +89,10 @@ def _turns(recording: Recording, at: NDArray[np.intp], new: NDArray[np.bool_]) -
 
 
 def directions(recording: Recording) -> Floats:
-    """The direction of motion of each sample, array [n] of 1 and -1; at rest that of the nearest
-    moving sample.
+    """The direction of motion of each sample, array [n] of 1 and -1.
+
+    Between two moving samples the velocity without noise tells it, if its sign changes at most
+    once. Otherwise the joint is at rest there: the direction is that of the nearest moving sample.
 
     Examples
     --------
@@ -102,14 +104,16 @@ def directions(recording: Recording) -> Floats:
     [-1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
     """
     sign = np.where(recording.velocity < 0.0, -1.0, 1.0)
-    at = np.flatnonzero(recording.moving)
+    at, rows = np.flatnonzero(recording.moving), np.arange(sign.size)
     if at.size == 0:
         return sign
-    rows = np.arange(sign.size)
-    after = np.minimum(np.searchsorted(at, rows), at.size - 1)
-    before = np.maximum(after - 1, 0)
-    nearer = np.abs(at[after] - rows) < np.abs(rows - at[before])
-    return sign[at[np.where(nearer, after, before)]]
+    place = np.searchsorted(at, rows)
+    before, after = at[np.maximum(place - 1, 0)], at[np.minimum(place, at.size - 1)]
+    nearest = sign[np.where(np.abs(after - rows) < np.abs(rows - before), after, before)]
+    seen = np.where(recording.moving, sign, np.sign(recording.denoised("velocity")))
+    changes = np.cumsum(np.diff(seen, prepend=seen[0]) != 0.0)
+    passed = (before < rows) & (rows < after) & (changes[after] - changes[before] <= 1)
+    return np.where(passed, seen, nearest)
 
 
 def move_seconds(recording: Recording) -> float:
