@@ -105,12 +105,12 @@ def columns(
 
 
 def _refuse_missing(names: Sequence[str]) -> None:
-    """Refuse a call that lacks several channels, with the names of all; one is told by the core.
+    """Refuse a call that lacks several channels, with the names of all; the core tells of one.
 
     Raises
     ------
     SpecError
-        Those that follow from others are not counted.
+        Two or more are missing that do not follow from others.
     """
     plain = [name for name in names if name not in FOLLOWING]
     if len(plain) > 1:

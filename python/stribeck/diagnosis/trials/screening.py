@@ -84,12 +84,13 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
     """Try `effect` on few samples; None where the model cannot take it."""
     try:
         model = model_for(extended_model(before, effect), before.recording)
-        problem = _few_samples(_memory_held(problem_of(model, before), before), before.model)
+        base = _without_memory(before.model)
+        problem = _few_samples(_memory_held(problem_of(model, before), before, base), base)
         lower, upper, first = bounds(problem.model, before.recording)
         found = _search(problem, lower, upper, first, seed)
         if not np.isfinite(found.square):
             return None
-        fall = _fall(before, problem, found, lower, upper)
+        fall = _fall(before, base, problem, found, lower, upper)
     except StribeckError:
         return None
     values = dict(zip(problem.model.names, found.values, strict=True))
@@ -97,12 +98,11 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
     return Screened(effect, model.with_values(found_or_held), fall)
 
 
-def _memory_held(problem: Problem, before: Fit) -> Problem:
+def _memory_held(problem: Problem, before: Fit, base: Model) -> Problem:
     """The problem without the effects of `before` through which earlier samples act.
 
     Their part of the torque is held: with them, every step of a search would need all samples.
     """
-    base = _without_memory(before.model)
     if base is before.model:
         return problem
     held = before.prediction - replace(problem, model=base).predict(base.values)
@@ -121,16 +121,17 @@ def _without_memory(model: Model) -> Model:
     return model
 
 
-def _fall(before: Fit, problem: Problem, found: Search, lower: Array, upper: Array) -> float:
+def _fall(
+    before: Fit, base: Model, problem: Problem, found: Search, lower: Array, upper: Array
+) -> float:
     """Relative fall of the RMSE; on a single stretch, with both models fitted to it alone."""
     if problem.span is None:
         level = rms(problem.weighted(before.held_out_residual[problem.rows]))
         left = rms(problem.weighted(held_out_residual(problem, found.values, lower, upper)))
     else:
-        simpler = _without_memory(before.model)
-        base = replace(problem, model=simpler)
-        least, most, _ = bounds(simpler, before.recording)
-        level = np.sqrt(_steps(base, simpler.values[None, :], least, most, FIRST_STEPS)[0].square)
+        least, most, _ = bounds(base, before.recording)
+        simpler = replace(problem, model=base)
+        level = np.sqrt(_steps(simpler, base.values[None, :], least, most, FIRST_STEPS)[0].square)
         left = np.sqrt(found.square)
     return 1.0 - float(left / level) if level > 0.0 else 0.0
 
@@ -142,7 +143,7 @@ def _few_samples(problem: Problem, base: Model) -> Problem:
     """
     if problem.model.memoryless:
         return problem.thinned(ROWS)
-    is_new_state = problem.model.has_state and not _without_memory(base).has_state
+    is_new_state = problem.model.has_state and not base.has_state
     return problem.window(SAMPLES) if is_new_state else problem
 
 
