@@ -41,6 +41,19 @@ def shoot(page: Any, folder: Path, name: str) -> list[str]:
     return found
 
 
+def hold(page: Any, address: str) -> list[Any]:
+    """The requests of an address that are held until they are continued."""
+    held: list[Any] = []
+    page.route(address, lambda route: held.append(route))
+    return held
+
+
+def wait(page: Any, held: list[Any]) -> None:
+    """Wait for a request that is held."""
+    while not held:
+        page.wait_for_timeout(50)
+
+
 @pytest.mark.minutes
 def test_the_loop_by_clicks_alone(opened: tuple[Any, str], tmp_path: Path) -> None:
     page, _ = opened
@@ -133,19 +146,36 @@ def test_other_figures_undo_nothing(opened: tuple[Any, str]) -> None:
     page.get_by_label("Effect to add").fill("load")
     press(page, "Add the effect")
     page.wait_for_function("() => document.body.dataset.drawn === '1'")
-    held: list[Any] = []
-    page.route("**/figures/**", lambda route: held.append(route))
+    held = hold(page, "**/figures/**")
     press(page, "Go to node 0")
     page.get_by_label("Effect to add").fill("stribeck")
     page.evaluate("() => { document.body.kept = true; }")
-    while not held:
-        page.wait_for_timeout(50)
+    wait(page, held)
     held[-1].continue_()
     page.unroute("**/figures/**")
     page.wait_for_selector("[data-figure='errors'] .bk-Figure")
     page.wait_for_timeout(1000)
     assert page.evaluate("() => document.body.kept")
     assert page.get_by_label("Effect to add").input_value() == "stribeck"
+
+
+def test_late_figures_keep_no_one_on_a_page(opened: tuple[Any, str]) -> None:
+    page, _ = opened
+    done(page)
+    go(page, "Compare")
+    press(page, "Fit this law")
+    library, other = hold(page, "**/bokeh.min.js*"), hold(page, "**/compare?*")
+    go(page, "Add")
+    page.get_by_label("Effect to add").fill("load")
+    press(page, "Add the effect")
+    page.evaluate("() => document.querySelector('nav a[href*=compare]').click()")
+    wait(page, other)
+    wait(page, library)
+    library[-1].continue_()
+    page.unroute("**/bokeh.min.js*")
+    page.wait_for_timeout(2000)
+    other[-1].continue_()
+    page.wait_for_url("**/compare?*", timeout=5000)
 
 
 def test_long_work_is_stopped_at_once(opened: tuple[Any, str]) -> None:

@@ -12,8 +12,10 @@ let following = false, leaving = false;
 let shown = "";
 // Load the page again for other figures: they are not taken out of a page, since their memory would
 // be lost. Until then the page is busy, so that nothing is typed or sent that the loading would undo.
+// A page that is being left for another is not loaded again: that would keep the user on it.
+addEventListener("beforeunload", () => { leaving = true; });
 function load() {
-  leaving = true;
+  if (leaving) return;
   page.busy = "1";
   location.reload();
 }
@@ -81,7 +83,7 @@ document.addEventListener("submit", async (event) => {
   try {
     // A field of the form is called "action".
     const answer = await fetch(form.getAttribute("action"), { method: "POST", body });
-    if (!answer.ok) complain(await answer.text());
+    if (!answer.ok) { complain(await answer.text()); draw(); }
     else if (path(answer.url) !== path(location.href)) location.assign(answer.url);
     else {
       form.reset();
@@ -182,7 +184,8 @@ async function drawOnce() {
     page.drawn = "1";
     return;
   }
-  if (shown) { load(); return; }
+  // What is being sent must arrive first; its answer draws again.
+  if (shown) { if (!sending) load(); return; }
   if (!made.item) { for (const place of places) place.hidden = true; return; }
   await bokeh();
   shown = made.number;
