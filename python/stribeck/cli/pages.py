@@ -14,7 +14,7 @@ from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.result import Diagnosis
 from stribeck.diagnosis.testable import untestable
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
+from stribeck.models.rigid_body import own_load
 from stribeck.passivity.certificate import Certificate
 from stribeck.passivity.check import check
 from stribeck.report.account import (

@@ -15,10 +15,10 @@ from stribeck.base.shown import Shown
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.fitting.fit import fit
 from stribeck.fitting.protocols.found import Protocol, found_protocols
-from stribeck.fitting.rigid_body import own_load
 from stribeck.fitting.transmission.measure import Transmission, measure_transmission
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
+from stribeck.models.rigid_body import own_load
 from stribeck.recording.assemble import nothing_moves
 from stribeck.recording.check import Check
 from stribeck.recording.load import Given, read_with

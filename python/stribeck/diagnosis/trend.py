@@ -18,11 +18,11 @@ from stribeck.base import linear
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.carrying import FEWEST_MOVES, fewest
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.covariance import batches, correlation_length, covariance_of
 from stribeck.identify.estimates import APART
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
+from stribeck.models.rigid_body import own_load
 from stribeck.recording.moves import moves
 
 Array = NDArray[np.float64]

@@ -149,7 +149,7 @@ def _no_columns(_: Identified) -> list[Array]:
     return []
 
 
-def _no_names(_: Recording) -> tuple[str, ...]:
+def _no_names(_before: Identified, _after: Identified) -> tuple[str, ...]:
     return ()
 
 
@@ -200,7 +200,8 @@ class Effect:
         Why the identified values lie beyond what the recording resolves, as a clause: a time
         constant longer than a move, a distance between two samples; None where they do not.
     alike
-        Other effects that no motion tells from it on a recording, because a sensor is missing.
+        Other effects that the recording cannot tell from it once it is identified: a sensor is
+        missing, or its torque follows theirs.
     part_of
         Another effect that contains this one on any motion.
     design_note
@@ -231,7 +232,7 @@ class Effect:
     size_range: tuple[float, float] | None = None
     forms: Callable[[Recording], int] = _one_form
     unresolved: Callable[[Identified], str | None] = _nothing
-    alike: Callable[[Recording], tuple[str, ...]] = _no_names
+    alike: Callable[[Identified, Identified], tuple[str, ...]] = _no_names
     part_of: str | None = None
     design_note: str = ""
     in_motion: InMotion = "acts"

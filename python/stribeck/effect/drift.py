@@ -80,9 +80,9 @@ def _where(before: Identified, after: Identified) -> str:
     return f"{said}more than temperature explains"
 
 
-def _alike(recording: Recording) -> tuple[str, ...]:
+def _alike(_: Identified, after: Identified) -> tuple[str, ...]:
     """Without a thermometer, temperature changes dry friction as slowly as time."""
-    return () if recording.temperature is not None else ("temperature_dry",)
+    return () if after.recording.temperature is not None else ("temperature_dry",)
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:

@@ -19,6 +19,7 @@ from stribeck.effect.base import (
 from stribeck.effect.columns import half_waves
 from stribeck.effect.direction import one_direction
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.load_along_stroke import friction_by_load
 from stribeck.recording.recording import Recording
 
 #: Number of times that the stroke must be passed.
@@ -84,10 +85,27 @@ def _where(before: Identified, after: Identified) -> str:
     top = max(abs(x) for x in m.box["velocity"])
     dry = m.split(top, position=q)["dry"]
     at = float(q[int(np.argmax(dry))])
-    return (
+    said = (
         f"dry friction varies by {number(float(np.ptp(dry)))} {m.load_unit} along the stroke and "
         f"is highest at {number(at)} {m.position_unit}, in both directions"
     )
+    for_each = _for_each_load(before, after)
+    if for_each is None:
+        return said
+    return (
+        f"{said}. It follows the load torque along the stroke, {number(for_each)} {m.torque_unit} "
+        f"for each {m.load_unit} of it: record the motion with another payload to tell"
+    )
+
+
+def _for_each_load(before: Identified, after: Identified) -> float | None:
+    """Dry friction for each unit of load torque, where it may be due to that."""
+    return None if "load" in before.model.effects else friction_by_load(after)
+
+
+def _alike(before: Identified, after: Identified) -> tuple[str, ...]:
+    """Friction that follows the load torque along the stroke may be due to that."""
+    return () if _for_each_load(before, after) is None else ("load",)
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:
@@ -115,4 +133,5 @@ EFFECT = Effect(
     constants=stroke_constants,
     generated_constants=_generated_constants,
     flexible_shape=_flexible_shape,
+    alike=_alike,
 )

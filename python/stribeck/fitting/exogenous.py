@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from stribeck.base.checks import check_choice
 from stribeck.base.errors import FitError, SpecError, StribeckError, option
-from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.identify.estimates import Estimate
 from stribeck.identify.exogeneity import Exogeneity, exogeneity
 from stribeck.identify.instruments import Instruments
 from stribeck.identify.problem import Problem
 from stribeck.identify.reference_motion import along_reference, follows, lag
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import needs_own_load, own_load
 from stribeck.recording.recording import Recording
 from stribeck.recording.weights import refuse_weights
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from stribeck.fitting.finish import finish
 from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.fitting.solve import Solution
 from stribeck.fitting.stated import Under
 from stribeck.identify.conditions import Together
@@ -23,6 +22,7 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.region import Region
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.uncertainty import Uncertainty
+from stribeck.models.rigid_body import needs_own_load, own_load
 from stribeck.passivity.imposed import Passive, PassiveCost, impose
 
 Array = NDArray[np.float64]

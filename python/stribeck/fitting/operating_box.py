@@ -7,8 +7,8 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.fitting.rigid_body import own_gravity
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import own_gravity
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

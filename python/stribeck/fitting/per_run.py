@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from stribeck.base.errors import FitError, SpecError, nearest, option
 from stribeck.fitting.prediction import Prediction
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import needs_own_load
 from stribeck.fitting.solve import Solution, solve
 from stribeck.identify.at_bound import at_bound_notes
 from stribeck.identify.choices import refuse_statements
@@ -25,6 +24,7 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.separable import CAUTIOUS, Search, minimise
 from stribeck.identify.uncertainty import Uncertainty, identified
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import needs_own_load
 from stribeck.recording.recording import Recording
 
 __all__ = ["named_per_run", "refuse_beside", "with_own_values"]

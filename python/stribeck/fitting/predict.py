@@ -7,10 +7,10 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
 from stribeck.fitting.prediction import refuse_infinite
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import check_channels
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import own_load
 from stribeck.recording.recording import Recording
 
 __all__ = ["predicted"]

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from stribeck.base.checks import check_count
 from stribeck.effect.constants import effect_constants
-from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.identify.effort import Effort
 from stribeck.identify.ends import Found
 from stribeck.identify.figures import rms
@@ -22,6 +21,7 @@ from stribeck.identify.search import multi_start
 from stribeck.identify.separable import minimise
 from stribeck.models.catalog import catalog
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import needs_own_load, own_load
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, option
-from stribeck.fitting.rigid_body import needs_own_load, own_load
 from stribeck.fitting.solve import Solution
 from stribeck.identify.conditions import Together
 from stribeck.identify.constrained import Conditioned, minimise_under
@@ -31,6 +30,7 @@ from stribeck.identify.separable import Search
 from stribeck.identify.space import SearchSpace
 from stribeck.identify.uncertainty import Uncertainty, identified
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import needs_own_load, own_load
 
 __all__ = ["PLAIN", "HeldConstraint", "Under", "prior_conflicts", "solve_under"]
 

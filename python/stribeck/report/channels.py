@@ -13,8 +13,8 @@ from stribeck.effect.base import ResidualView
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.effect.registry import find
 from stribeck.effect.ripple import ripple_period_of
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.figures import bridged, zero_phase
+from stribeck.models.rigid_body import own_load
 
 if TYPE_CHECKING:
     from stribeck.fitting.result import Fit

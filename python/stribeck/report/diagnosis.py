@@ -220,10 +220,10 @@ def carried_sentence(finding: Finding) -> str:
 
 
 def indistinguishable_sentence(finding: Finding) -> str:
-    """Which other effects predict as well."""
+    """Which other effects may be the cause as well."""
     return (
-        f"Indistinguishable from {listed(finding.indistinguishable_from, 'or')} on this data: the "
-        f"held-out errors are not significantly different. The simplest effect is listed first."
+        f"Indistinguishable from {listed(finding.indistinguishable_from, 'or')} on this data. Of "
+        "effects that predict equally well, the simplest is listed first."
     )
 
 

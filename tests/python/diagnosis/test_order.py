@@ -86,7 +86,7 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
         def __init__(self, effect: str) -> None:
             self.effect = effect
 
-        def alike(self, recording: object) -> tuple[str, ...]:
+        def alike(self, before: Fit, after: Fit) -> tuple[str, ...]:
             return made.alike[self.effect]
 
     class Judge(Sifted):

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from stribeck import _core
 from stribeck.base.errors import StribeckError
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_gravity, own_load
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import own_gravity, own_load
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.plausibility.claim import Array, Claim
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import own_load
 
 #: Standard errors by which a value must be negative.
 BEYOND = 1.96

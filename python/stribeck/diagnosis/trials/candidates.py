@@ -30,10 +30,10 @@ from stribeck.diagnosis.trials.trial import (
     try_effect,
 )
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.scaling import check_channels
 from stribeck.models.catalog import effect_ids
 from stribeck.models.formula_law import effect_name
+from stribeck.models.rigid_body import own_load
 
 
 @dataclass(frozen=True)

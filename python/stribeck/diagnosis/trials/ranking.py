@@ -198,7 +198,8 @@ def finding_of(
 ) -> Finding:
     """The finding that a trial is, indistinguishable from `others`."""
     known = find(trial.effect)
-    alike = () if known is None else known.alike(before.recording)
+    names = () if known is None else known.alike(before, trial.fit)
+    alike = tuple(name for name in names if name not in others)
     return Finding(
         effect=trial.effect,
         weight=weight / (1 + len(alike)),

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.extend import extended_models
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
 from stribeck.identify.problem import Problem
@@ -24,6 +23,7 @@ from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.separable import CAUTIOUS, Search, minimise_from
 from stribeck.identify.space import SearchSpace
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import own_load
 
 Array = NDArray[np.float64]
 

@@ -21,11 +21,11 @@ from stribeck.diagnosis.visibility.subspace import sine_to_span
 from stribeck.effect.base import number
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.confounded import partners, reason
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import effect_row
+from stribeck.models.rigid_body import own_load
 
 #: Sine of the angle to a model from which it is not the model that hides an effect.
 NOT_ABSORBED = 0.3

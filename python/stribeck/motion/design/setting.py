@@ -14,12 +14,12 @@ from stribeck.base import linear
 from stribeck.base.errors import FitError, SpecError, option
 from stribeck.diagnosis.visibility.power import ExpectedNoise
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.covariance import correlation_length
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
+from stribeck.models.rigid_body import own_load
 from stribeck.motion.design.motion import Limits, SampledMotion
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.rows import held_out_blocks

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from stribeck.base.errors import SpecError
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.effect.registry import of_catalog
-from stribeck.fitting.rigid_body import own_load
+from stribeck.models.rigid_body import own_load
 from stribeck.motion.simulate.acting import friction_of
 from stribeck.report.channels import clock, torque_name
 from stribeck.report.plots.page import Page, centred

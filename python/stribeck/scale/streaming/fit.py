@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.result import Fit
-from stribeck.fitting.rigid_body import needs_own_load
 from stribeck.identify.at_bound import at_bound_notes
 from stribeck.identify.covariance import correlation_length
 from stribeck.identify.estimates import Identified, estimates_by_rows
@@ -18,6 +17,7 @@ from stribeck.identify.held_out import Bounded
 from stribeck.identify.separable import Search, minimise
 from stribeck.identify.triangle import Triangle
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import needs_own_load
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.passes import Groups, StreamedProblem, Told, group_edges
 from stribeck.scale.streaming.result import StreamedFit

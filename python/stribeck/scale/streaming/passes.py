@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
 from stribeck.fitting.operating_box import operating_box
-from stribeck.fitting.rigid_body import own_load
 from stribeck.identify.problem import Problem
 from stribeck.identify.triangle import Triangle, triangles
 from stribeck.models.model import Model
+from stribeck.models.rigid_body import own_load
 from stribeck.scale.streaming.runs import numbered
 from stribeck.scale.streaming.windows import Window, Windows
 
