@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,12 @@ import polars as pl
 import pytest
 import stribeck as sb
 from scipy.signal import lfilter
+from stribeck.diagnosis.diagnose import diagnose
+from stribeck.diagnosis.loop.exchange import Exchange
+from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.trial import try_effect
 from stribeck.recording.derive import slow_rate
 from synthetic import Array, joint, motion, record
 
@@ -51,6 +57,40 @@ def test_it_is_found_after_the_temperature_and_said(tmp_path: Path) -> None:
     # Without friction that depends on temperature the lag has no influence, and goes with it.
     without = fit_without(found.final, found.steps[0].finding, 0)
     assert without is not None and without.model.effects == ()
+
+
+@pytest.fixture(scope="module")
+def late(tmp_path_factory: pytest.TempPathFactory) -> ImprovementPath:
+    """Temperature of dry friction, then the lag of the thermometer."""
+    base = sb.fit("coulomb", record(tmp_path_factory.mktemp("late"), seen_late(4000)), starts=2)
+    said = diagnose(base, brief=True)
+    steps: list[ImprovementStep] = []
+    current = base
+    for effect in ("temperature_dry", "thermometer_lag"):
+        after = sb.add(current, effect, starts=1)
+        finding = replace(said.findings[0], effect=effect, before=current, fit=after)
+        steps.append(ImprovementStep(finding, current, after))
+        current = after
+    return ImprovementPath(base, said, tuple(steps))
+
+
+def test_the_lag_goes_with_the_effect_of_temperature(late: ImprovementPath) -> None:
+    shorter = late.without("temperature_dry", seed=0)
+    assert shorter.steps == ()
+    assert [gone.effect for gone in shorter.dropped] == ["temperature_dry"]
+
+
+def test_the_lag_is_looked_for_again_after_an_exchange(late: ImprovementPath) -> None:
+    found = screened(late.start, "temperature_viscous", seed=0)
+    assert found is not None
+    other = try_effect(late.start, found)
+    assert other is not None
+    finding = late.steps[0].finding
+    changed = late.exchanged(Exchange(finding, late.start, other, 0.0), seed=0)
+    assert [step.finding.effect for step in changed.steps] == ["temperature_viscous"]
+    assert changed.current.model.spec == "coulomb+temperature_viscous"
+    # Only what is dropped is not looked for again.
+    assert [gone.effect for gone in changed.dropped] == ["temperature_dry"]
 
 
 def test_friction_that_does_not_depend_on_temperature_is_refused(tmp_path: Path) -> None:

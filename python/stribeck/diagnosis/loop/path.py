@@ -9,7 +9,7 @@ import numpy as np
 
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
 from stribeck.diagnosis.loop.remainder import part_explained, unknown_structure
-from stribeck.diagnosis.loop.superfluous import Needed, brought_by, without_effects
+from stribeck.diagnosis.loop.superfluous import Needed, brought_by, without_effects, without_idle
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
@@ -117,6 +117,8 @@ class ImprovementPath:
     def without(self, effect: str, seed: int, reason: str | None = None) -> ImprovementPath:
         """The path without one effect; the steps after it are fitted again, in order.
 
+        An effect that has no influence without it is left out too.
+
         Parameters
         ----------
         reason
@@ -124,10 +126,10 @@ class ImprovementPath:
         """
         place = self._place(effect)
         dropped = self.steps[place]
-        later = self.steps[place + 1 :]
-        whole = without_effects(self.current.model, brought_by(dropped.finding))
-        steps = self._refitted(dropped.before, later, whole, seed)
-        because = reason or _superfluous(effect, self.steps[-1].finding.effect)
+        shorter = without_effects(self.current.model, brought_by(dropped.finding))
+        whole = without_idle(shorter, self.current.recording)
+        steps = self._refitted(dropped.before, self.steps[place + 1 :], whole, seed)
+        because = reason or _superfluous(effect, steps[-1].finding.effect if steps else effect)
         gone = Dropped(effect, dropped.before, because)
         return replace(self, steps=(*self.steps[:place], *steps), dropped=(*self.dropped, gone))
 
@@ -141,7 +143,10 @@ class ImprovementPath:
         return next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
 
     def exchanged(self, exchange: Exchange, seed: int) -> ImprovementPath:
-        """The path with another effect in place of one; the steps after it are fitted again."""
+        """The path with another effect in place of one; the steps after it are fitted again.
+
+        One that has no influence without that effect is left out, and may be found again.
+        """
         place = self._place(exchange.finding.effect)
         dropped, by = self.steps[place], exchange.by
         finding = replace(
@@ -199,7 +204,12 @@ class ImprovementPath:
     def _refitted(
         self, before: Fit, later: Sequence[ImprovementStep], whole: Model, seed: int
     ) -> list[ImprovementStep]:
-        """Steps from `before` to the model `whole`, whose values are the starts."""
+        """Steps from `before` to the model `whole`, whose values are the starts.
+
+        Those whose effect this model does not hold are left out.
+        """
+        held = {*whole.effects, *whole.own_effects, *whole.rigid_body}
+        later = [step for step in later if step.finding.effect in held]
         models = [whole]
         for step in reversed(later[1:]):
             models.append(without_effects(models[-1], brought_by(step.finding)))

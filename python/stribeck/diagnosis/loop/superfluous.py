@@ -18,6 +18,7 @@ from stribeck.identify.effort import QUICK
 from stribeck.identify.figures import rms
 from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
 
 
 def brought_by(finding: Finding) -> tuple[str, ...]:
@@ -34,19 +35,25 @@ def without_effects(model: Model, effects: Sequence[str]) -> Model:
     return model
 
 
+def without_idle(model: Model, recording: Recording) -> Model:
+    """The model without the effects that have no influence in it.
+
+    The lag of a thermometer has none without friction that depends on temperature.
+    """
+    idle = [e for e in model.effects if of_catalog(e).refusal(model, recording) is not None]
+    return without_effects(model, idle)
+
+
 def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
     """The model refitted without what a finding brought; None where that cannot be fitted.
 
-    An effect that has no influence without it is left out too: the lag of a thermometer without
-    friction that depends on temperature.
+    An effect that has no influence without it is left out too.
     """
-    recording = current.recording
     model = without_effects(current.model, brought_by(finding))
-    alone = [e for e in model.effects if of_catalog(e).refusal(model, recording) is not None]
     try:
         return fit(
-            without_effects(model, alone),
-            recording,
+            without_idle(model, current.recording),
+            current.recording,
             starts=1,
             seed=seed,
             transient=current.transient,
