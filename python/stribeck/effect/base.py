@@ -197,8 +197,11 @@ class Effect:
     forms
         How many forms a fit chooses from by looking at the data; they count as so many tests.
     unresolved
-        Why the identified values lie beyond what the recording resolves, as a clause: a time
-        constant longer than a move, a distance between two samples; None where they do not.
+        Why the effect acts within what the recording resolves, as a clause: a distance between two
+        samples, a lag of less than one; None where it does not.
+    out_of_reach
+        Why it acts beyond what the recording reaches, as a clause: a time constant longer than a
+        move, a speed above the highest; None where it does not.
     alike
         Other effects that the recording cannot tell from it once it is identified: a sensor is
         missing, or its torque follows theirs.
@@ -232,6 +235,7 @@ class Effect:
     size_range: tuple[float, float] | None = None
     forms: Callable[[Recording], int] = _one_form
     unresolved: Callable[[Identified], str | None] = _nothing
+    out_of_reach: Callable[[Identified], str | None] = _nothing
     alike: Callable[[Identified, Identified], tuple[str, ...]] = _no_names
     part_of: str | None = None
     design_note: str = ""

@@ -95,14 +95,18 @@ def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
     return {"frictional_lag": 0.1 * joint.stroke / joint.speed}
 
 
+def _out_of_reach(after: Identified) -> str | None:
+    lag, longest = after.model.value("frictional_lag"), LONGEST * move_seconds(after.recording)
+    if lag <= longest:
+        return None
+    return (
+        f"friction would lag by {number(lag)} s, more than a tenth of a typical move, which lasts "
+        f"{number(longest / LONGEST)} s"
+    )
+
+
 def _unresolved(after: Identified) -> str | None:
     lag, r = after.model.value("frictional_lag"), after.recording
-    longest = LONGEST * move_seconds(r)
-    if lag > longest:
-        return (
-            f"friction would lag by {number(lag)} s, more than a tenth of a typical move, which "
-            f"lasts {number(longest / LONGEST)} s"
-        )
     if lag < r.scales()["sample_period"]:
         return f"friction would lag by {number(1e3 * lag)} ms, less than a sample"
     if r.columns["velocity"].derived and r.cutoff_hz is not None and lag < QUARTER / r.cutoff_hz:
@@ -123,5 +127,6 @@ EFFECT = Effect(
     flexible_shape=_flexible_shape,
     size_range=(10.0, 1e-2),
     unresolved=_unresolved,
+    out_of_reach=_out_of_reach,
     cannot_hide=_without_curve,
 )

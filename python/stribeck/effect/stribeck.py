@@ -15,6 +15,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.direction import one_direction
 from stribeck.effect.facts import RecordingFacts
+from stribeck.models.model import Model
 
 #: Slow motion: slower than this share of the top speed.
 SLOW = 0.15
@@ -82,26 +83,31 @@ def _flexible_shape(fit: Identified) -> list[Array]:
     return [np.sign(v) * np.exp(-np.abs(v) / (slow * k)) for k in (0.3, 1.0, 3.0)]
 
 
+def _left(model: Model, speed: float) -> float:
+    """Share of the height of the curve at a speed."""
+    ratio = speed / model.value("stribeck_velocity")
+    return float(np.exp(-(ratio ** model.value("stribeck_exponent"))))
+
+
+def _falls_around(model: Model) -> str:
+    slow = number(model.value("stribeck_velocity"))
+    return f"friction would fall around {slow} {model.position_unit}/s"
+
+
 def _unresolved(after: Identified) -> str | None:
+    m, slowest = after.model, after.recording.velocity_threshold
+    if _left(m, slowest) >= LEFT:
+        return None
+    least = f"{number(slowest)} {m.position_unit}/s"
+    return f"{_falls_around(m)}, slower than what is scored, {least}"
+
+
+def _out_of_reach(after: Identified) -> str | None:
     m, r = after.model, after.recording
-    slow = m.value("stribeck_velocity")
     top = float(np.quantile(np.abs(r.velocity[after.rows]), 0.99))
-    unit = f"{m.position_unit}/s"
-
-    def left(speed: float) -> float:
-        return float(np.exp(-((speed / slow) ** m.value("stribeck_exponent"))))
-
-    if left(r.velocity_threshold) < LEFT:
-        return (
-            f"friction would fall around {number(slow)} {unit}, slower than what is scored, "
-            f"{number(r.velocity_threshold)} {unit}"
-        )
-    if left(top) > LEFT:
-        return (
-            f"friction would fall around {number(slow)} {unit}, and the joint reaches only "
-            f"{number(top)} {unit}"
-        )
-    return None
+    if _left(m, top) <= LEFT:
+        return None
+    return f"{_falls_around(m)}, and the joint reaches only {number(top)} {m.position_unit}/s"
 
 
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
@@ -120,4 +126,5 @@ EFFECT = Effect(
     plausible=_plausible,
     flexible_shape=_flexible_shape,
     unresolved=_unresolved,
+    out_of_reach=_out_of_reach,
 )

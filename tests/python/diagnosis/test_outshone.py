@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.trials import outshone
 from stribeck.diagnosis.trials.evidence import evidence
-from stribeck.diagnosis.trials.outshone import without_outshone
+from stribeck.diagnosis.trials.outshone import without_outshone, without_unresolved
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import Trial
 from synthetic import joint, motion, record
@@ -40,3 +42,31 @@ def test_friction_that_adds_nothing_to_what_predicts_better(
     reasons = demoted(tmp_path, by_position)
     wanted = ["load predicts better, and leaves nothing to it"] if leaves == "nothing" else []
     assert reasons == wanted
+
+
+@pytest.mark.parametrize(
+    ("lag", "slow", "demotes"), [(0.05, 0.3, False), (1e-3, 0.3, True), (0.05, 30.0, False)]
+)
+def test_what_acts_beyond_reach_outshines_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lag: float, slow: float, demotes: bool
+) -> None:
+    """A lag below a sample shows that something acts there; a speed never reached shows nothing."""
+    before = sb.fit("coulomb", record(tmp_path, joint(0.2 * motion(ROWS)[3], rows=ROWS)))
+    inertia = sb.fit("coulomb+inertia", before.recording, starts=1)
+    late = sb.fit("coulomb+stribeck+frictional_lag", before.recording, starts=1)
+    values = {
+        **dict(zip(late.model.names, late.model.values, strict=True)),
+        "frictional_lag": lag,
+        "stribeck_velocity": slow,
+        "stribeck_exponent": 1.0,
+    }
+    late = replace(late, model=late.model.with_values(list(values.values())))
+    right, better = (
+        Trial(effect, fit, evidence(before, inertia))
+        for effect, fit in (("inertia", inertia), ("frictional_lag", late))
+    )
+    monkeypatch.setattr(outshone, "tie_statistic", lambda *_: 99.0)
+    monkeypatch.setattr(outshone, "adds_to", lambda *_: False)
+    sift = Sifted((right,), refused=(Doubted(better, "impossible"),))
+    left = without_unresolved(before, sift, 20, 0.01, 0)
+    assert [row.trial.effect for row in left.demoted] == (["inertia"] if demotes else [])

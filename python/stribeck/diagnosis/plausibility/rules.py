@@ -18,7 +18,7 @@ from stribeck.diagnosis.plausibility.other_part import other_part_changes
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.too_large import too_large
 from stribeck.diagnosis.plausibility.uneven import uneven
-from stribeck.diagnosis.plausibility.unresolved import unresolved
+from stribeck.diagnosis.plausibility.unresolved import out_of_reach, unresolved
 
 #: A rule: the reason why a claim breaks it, or None.
 Rule = Callable[[Claim], str | None]
@@ -30,10 +30,11 @@ IMPOSSIBLE: tuple[Rule, ...] = (
     negative_friction,
     negative_inertia,
     unresolved,
+    out_of_reach,
     other_part_changes,
 )
 #: Nor is one with which another effect of the model breaks one of these.
-OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved)
+OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved, out_of_reach)
 #: One that breaks one of these is demoted.
 WEAK: tuple[Rule, ...] = (few_events, one_event, few_samples, shape_at_bound, uneven)
 

@@ -1,21 +1,31 @@
-"""Rule: the time or distance over which an effect acts lies within what the recording resolves."""
+"""Rules: an effect acts over a time, distance or speed that the recording resolves and reaches."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.effect.base import Effect
 from stribeck.effect.registry import find
 
 
 def unresolved(claim: Claim) -> str | None:
-    """Why the recording does not resolve the effect; None where it does.
+    """Why the effect acts within what the recording resolves; None where it does not."""
+    reasons = (known.unresolved(claim.after) for known in _claimed(claim))
+    return next((reason for reason in reasons if reason is not None), None)
 
-    Nor the simpler effect that came with it, such as the Stribeck curve of a frictional lag.
-    """
+
+def out_of_reach(claim: Claim) -> str | None:
+    """Why the effect acts beyond what the recording reaches; None where it does not."""
+    reasons = (known.out_of_reach(claim.after) for known in _claimed(claim))
+    return next((reason for reason in reasons if reason is not None), None)
+
+
+def _claimed(claim: Claim) -> Iterator[Effect]:
+    """The effect, and the simpler one that came with it, such as the curve of a frictional lag."""
     earlier = claim.before.model.effects
     came = [e for e in claim.after.model.effects if e not in earlier and e != claim.effect]
     for effect in (claim.effect, *came):
         known = find(effect)
-        reason = None if known is None else known.unresolved(claim.after)
-        if reason is not None:
-            return reason
-    return None
+        if known is not None:
+            yield known

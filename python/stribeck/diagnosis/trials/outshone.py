@@ -2,7 +2,8 @@
 
 Where causes in the measurement explain an effect as well as friction does, it is not claimed. What
 it explains is then left for the next effect, which predicts worse and is no cause either. The same
-holds where the better effect acts within a time or a distance that the recording does not resolve.
+holds where the better effect acts within a time or a distance that the recording does not resolve:
+something acts there. One that acts beyond what the recording reaches bends to fit anything.
 """
 
 from __future__ import annotations

@@ -19,7 +19,7 @@ from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, 
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.too_large import too_large
 from stribeck.diagnosis.plausibility.uneven import uneven
-from stribeck.diagnosis.plausibility.unresolved import unresolved
+from stribeck.diagnosis.plausibility.unresolved import out_of_reach, unresolved
 from stribeck.identify.problem import Problem
 from synthetic import Array, joint, motion, record
 
@@ -137,7 +137,7 @@ def test_inertia_below_zero(tmp_path: Path) -> None:
 def test_a_stribeck_curve_that_never_ends_or_never_begins(stribeck_curve: Claim) -> None:
     r = stribeck_curve.before.recording
     top = float(np.quantile(np.abs(r.velocity[stribeck_curve.rows]), 0.99))
-    beyond = unresolved(with_values(stribeck_curve, stribeck_velocity=3.0 * top))
+    beyond = out_of_reach(with_values(stribeck_curve, stribeck_velocity=3.0 * top))
     assert beyond is not None and "reaches only" in beyond
     exponential = with_values(stribeck_curve, stribeck_exponent=1.0)
     # exp(-2), 14 % of the height, is left at the slowest speed; or exp(-3), 5 %.
@@ -150,8 +150,9 @@ def test_a_stribeck_curve_that_never_ends_or_never_begins(stribeck_curve: Claim)
 def test_a_lag_beyond_a_move_or_within_a_sample(stribeck_curve: Claim) -> None:
     lagging = sb.add(stribeck_curve.after, "frictional_lag", starts=2)
     claim = Claim("frictional_lag", stribeck_curve.after, lagging, 0.01)
-    assert unresolved(with_values(claim, frictional_lag=0.03)) is None
-    long = unresolved(with_values(claim, frictional_lag=1.8))
+    seen = with_values(claim, frictional_lag=0.03)
+    assert unresolved(seen) is None and out_of_reach(seen) is None
+    long = out_of_reach(with_values(claim, frictional_lag=1.8))
     assert long is not None and "typical move" in long
     short = unresolved(with_values(claim, frictional_lag=1e-4))
     assert short is not None and "less than a sample" in short
