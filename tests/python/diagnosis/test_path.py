@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import stribeck as sb
+from made_paths import path_through
 from stribeck.base.errors import FitError
-from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop import path as made
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.search import Search, improvement_paths
@@ -38,15 +36,7 @@ def test_the_path_grows_by_an_effect_at_a_time(base: sb.Fit, paths: list[Improve
 @pytest.fixture(scope="module")
 def detour(base: sb.Fit) -> ImprovementPath:
     """Direction, which is not needed, then load and offset."""
-    said = diagnose(base, brief=True)
-    steps: list[ImprovementStep] = []
-    current = base
-    for effect in ("direction", "load", "offset"):
-        after = sb.add(current, effect, starts=1)
-        finding = replace(said.findings[0], effect=effect, before=current, fit=after)
-        steps.append(ImprovementStep(finding, current, after))
-        current = after
-    return ImprovementPath(base, said, tuple(steps))
+    return path_through(base, ("direction", "load", "offset"))
 
 
 def test_without_an_effect_those_before_it_stay_as_they_are(detour: ImprovementPath) -> None:

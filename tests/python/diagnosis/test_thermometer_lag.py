@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from made_paths import path_through
 from scipy.signal import lfilter
-from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop.exchange import Exchange
-from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.superfluous import fit_without
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import try_effect
@@ -63,15 +62,7 @@ def test_it_is_found_after_the_temperature_and_said(tmp_path: Path) -> None:
 def late(tmp_path_factory: pytest.TempPathFactory) -> ImprovementPath:
     """Temperature of dry friction, then the lag of the thermometer."""
     base = sb.fit("coulomb", record(tmp_path_factory.mktemp("late"), seen_late(4000)), starts=2)
-    said = diagnose(base, brief=True)
-    steps: list[ImprovementStep] = []
-    current = base
-    for effect in ("temperature_dry", "thermometer_lag"):
-        after = sb.add(current, effect, starts=1)
-        finding = replace(said.findings[0], effect=effect, before=current, fit=after)
-        steps.append(ImprovementStep(finding, current, after))
-        current = after
-    return ImprovementPath(base, said, tuple(steps))
+    return path_through(base, ("temperature_dry", "thermometer_lag"))
 
 
 def test_the_lag_goes_with_the_effect_of_temperature(late: ImprovementPath) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
 from stribeck.diagnosis.loop.remainder import part_explained, unknown_structure
-from stribeck.diagnosis.loop.superfluous import Needed, brought_by, without_effects, without_idle
+from stribeck.diagnosis.loop.superfluous import Needed, brought_by, model_without, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
@@ -126,8 +126,7 @@ class ImprovementPath:
         """
         place = self._place(effect)
         dropped = self.steps[place]
-        shorter = without_effects(self.current.model, brought_by(dropped.finding))
-        whole = without_idle(shorter, self.current.recording)
+        whole = model_without(self.current, dropped.finding)
         steps = self._refitted(dropped.before, self.steps[place + 1 :], whole, seed)
         because = reason or _superfluous(effect, steps[-1].finding.effect if steps else effect)
         gone = Dropped(effect, dropped.before, because)
@@ -208,7 +207,7 @@ class ImprovementPath:
 
         Those whose effect this model does not hold are left out.
         """
-        held = {*whole.effects, *whole.own_effects, *whole.rigid_body}
+        held = {*whole.effects, *whole.own_effects}
         later = [step for step in later if step.finding.effect in held]
         models = [whole]
         for step in reversed(later[1:]):

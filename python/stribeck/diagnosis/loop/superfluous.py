@@ -18,7 +18,6 @@ from stribeck.identify.effort import QUICK
 from stribeck.identify.figures import rms
 from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
-from stribeck.recording.recording import Recording
 
 
 def brought_by(finding: Finding) -> tuple[str, ...]:
@@ -35,11 +34,12 @@ def without_effects(model: Model, effects: Sequence[str]) -> Model:
     return model
 
 
-def without_idle(model: Model, recording: Recording) -> Model:
-    """The model without the effects that have no influence in it.
+def model_without(current: Fit, finding: Finding) -> Model:
+    """The model without what a finding brought, and without what has no influence then.
 
     The lag of a thermometer has none without friction that depends on temperature.
     """
+    model, recording = without_effects(current.model, brought_by(finding)), current.recording
     idle = [e for e in model.effects if of_catalog(e).refusal(model, recording) is not None]
     return without_effects(model, idle)
 
@@ -49,10 +49,9 @@ def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
 
     An effect that has no influence without it is left out too.
     """
-    model = without_effects(current.model, brought_by(finding))
     try:
         return fit(
-            without_idle(model, current.recording),
+            model_without(current, finding),
             current.recording,
             starts=1,
             seed=seed,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,6 +17,11 @@ from stribeck.models.model import Model
 from stribeck.models.rigid_body import own_gravity, own_load
 
 Array = NDArray[np.float64]
+
+
+def first_reason(reasons: Iterable[str | None]) -> str | None:
+    """The first of the reasons that there is; None where there is none."""
+    return next((reason for reason in reasons if reason is not None), None)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from stribeck.diagnosis.plausibility.cancelling import cancelling
-from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.claim import Claim, first_reason
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
 from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
 from stribeck.diagnosis.plausibility.other_part import other_part_changes
@@ -75,5 +75,4 @@ def weak(claim: Claim) -> str | None:
 
 
 def _first(rules: tuple[Rule, ...], claim: Claim) -> str | None:
-    reasons = (rule(claim) for rule in rules)
-    return next((reason for reason in reasons if reason is not None), None)
+    return first_reason(rule(claim) for rule in rules)

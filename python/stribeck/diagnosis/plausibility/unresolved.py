@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.claim import Claim, first_reason
 from stribeck.effect.base import Effect
 from stribeck.effect.registry import find
 
 
 def unresolved(claim: Claim) -> str | None:
     """Why the effect acts within what the recording resolves; None where it does not."""
-    reasons = (known.unresolved(claim.after) for known in _claimed(claim))
-    return next((reason for reason in reasons if reason is not None), None)
+    return first_reason(known.unresolved(claim.after) for known in _claimed(claim))
 
 
 def out_of_reach(claim: Claim) -> str | None:
     """Why the effect acts beyond what the recording reaches; None where it does not."""
-    reasons = (known.out_of_reach(claim.after) for known in _claimed(claim))
-    return next((reason for reason in reasons if reason is not None), None)
+    return first_reason(known.out_of_reach(claim.after) for known in _claimed(claim))
 
 
 def _claimed(claim: Claim) -> Iterator[Effect]:

@@ -16,6 +16,7 @@ let shown = "";
 addEventListener("beforeunload", () => { leaving = true; });
 function load() {
   if (leaving) return;
+  leaving = true;
   page.busy = "1";
   location.reload();
 }
