@@ -39,7 +39,9 @@ class Prediction:
 
         Raises `FitError` if a torque is not finite, or if a bristle has no dry friction to hold."""
         prediction = _finite_prediction(problem, values)
-        held_out, _ = held_out_prediction(problem, values, lower, upper, exact=effort.exact, by=by)
+        held_out, _ = held_out_prediction(
+            problem, values, lower, upper, exact=effort.exact, by=by, predicted=prediction
+        )
         return cls._of(problem, prediction, held_out)
 
     @classmethod

@@ -79,6 +79,7 @@ def held_out_prediction(
     *,
     exact: bool = True,
     by: Refit | None = None,
+    predicted: Array | None = None,
 ) -> tuple[Array, Array]:
     """Predict each block by a model fitted without it.
 
@@ -93,6 +94,8 @@ def held_out_prediction(
         rank candidates; samples at rest then keep the prediction of the fit to all samples.
     by : Refit
         How a refit is done; default: within the bounds.
+    predicted : array [n]
+        The prediction with `values`, where it is known already.
 
     Returns
     -------
@@ -104,7 +107,7 @@ def held_out_prediction(
     block = problem.recording.block
     count = problem.recording.block_count
     group = block[problem.rows].astype(np.uint32)
-    prediction = problem.predict(values)
+    prediction = problem.predict(values) if predicted is None else predicted.copy()
     refits = np.tile(values, (count, 1))
     if count < 2:
         return np.full_like(prediction, np.nan), refits

@@ -88,8 +88,8 @@ def _turns(recording: Recording, at: NDArray[np.intp], new: NDArray[np.bool_]) -
     return np.cumsum(np.where(new, 0, passed))
 
 
-def directions(recording: Recording) -> Floats:
-    """The direction of motion of each sample, array [n] of 1 and -1.
+def directions(recording: Recording) -> Ints:
+    """The direction of motion of each sample, int array [n] of 1 and -1.
 
     Between two moving samples the velocity without noise tells it, if its sign changes at most
     once. Otherwise the joint is at rest there: the direction is that of the nearest moving sample.
@@ -101,17 +101,25 @@ def directions(recording: Recording) -> Floats:
     >>> v = np.array([-1.0, -1.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0])
     >>> r = Recording.from_columns(time=t, velocity=v, torque=np.ones(t.size))
     >>> directions(r).tolist()
-    [-1.0, -1.0, -1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
+    [-1, -1, -1, -1, -1, 1, 1, 1, 1, 1]
     """
-    sign = np.where(recording.velocity < 0.0, -1.0, 1.0)
+    if "directions" not in recording.kept:
+        recording.kept["directions"] = ints(_directed(recording))
+    return recording.kept["directions"]
+
+
+def _directed(recording: Recording) -> Ints:
+    """The direction of motion of each sample, found."""
+    sign = np.where(recording.velocity < 0.0, -1, 1)
     at, rows = np.flatnonzero(recording.moving), np.arange(sign.size)
     if at.size == 0:
         return sign
     place = np.searchsorted(at, rows)
     before, after = at[np.maximum(place - 1, 0)], at[np.minimum(place, at.size - 1)]
     nearest = sign[np.where(np.abs(after - rows) < np.abs(rows - before), after, before)]
-    seen = np.where(recording.moving, sign, np.sign(recording.denoised("velocity")))
-    changes = np.cumsum(np.diff(seen, prepend=seen[0]) != 0.0)
+    smooth = np.sign(recording.denoised("velocity")).astype(np.intp)
+    seen = np.where(recording.moving, sign, smooth)
+    changes = np.cumsum(np.diff(seen, prepend=seen[0]) != 0)
     passed = (before < rows) & (rows < after) & (changes[after] - changes[before] <= 1)
     return np.where(passed, seen, nearest)
 

@@ -58,6 +58,7 @@ class Search:
             path = self._beyond(path, trials)
             yield path
         if (shorter := self._without_imitations(path)) is not None:
+            shorter = self._needed(shorter)
             yield shorter
             path = yield from self._grown(self._asked(shorter))
             if not trials:
@@ -141,6 +142,14 @@ class Search:
             # For example a bristle whose dry friction is positive only with this effect.
             self.progress(f"{found.idle} stays: {error}")
             return None, path
+
+    def _needed(self, path: ImprovementPath) -> ImprovementPath:
+        """The path without what is superfluous."""
+        while True:
+            shorter, path = self._shortened(path, [step.finding for step in path.steps])
+            if shorter is None:
+                return path
+            path = shorter
 
     def _exchanged(self, path: ImprovementPath) -> tuple[ImprovementPath | None, ImprovementPath]:
         """The path with one effect exchanged, or None; and the path with its ties."""

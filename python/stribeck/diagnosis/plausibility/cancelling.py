@@ -24,10 +24,10 @@ def cancelling(claim: Claim) -> str | None:
     if not level > 0.0:
         return None
     fold = (rms(claim.torque) + rms(total - claim.torque)) / level
-    if fold <= FOLD and _fold(claim.before) <= FOLD:
-        fold = _fold(claim.after)
     if fold <= FOLD:
-        return None
+        fold = _fold(claim.after)
+        if fold <= FOLD or _fold(claim.before) > FOLD:
+            return None
     return (
         f"it would be balanced by other terms of the model: the torques of all are "
         f"{number(fold)} times their sum"

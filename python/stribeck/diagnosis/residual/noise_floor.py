@@ -21,7 +21,8 @@ from stribeck.identify.covariance import correlation_length
 
 Array = NDArray[np.float64]
 
-NEIGHBOURS = 40
+#: Neighbours of which one must be far in time. Most have one among the first few.
+NEIGHBOURS, FIRST_NEIGHBOURS = 40, 4
 FEWEST_PAIRS = 300
 #: An error above this multiple of the noise floor is more than noise.
 REACHED = 1.5
@@ -63,20 +64,33 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     step = -(-residual.size // 20000)
     index = np.arange(0, residual.size, step)
     apart = max(4.0 * lasting, 20.0) / step
-    tree = scipy.spatial.cKDTree(features[index])
-    distance, neighbour = tree.query(features[index], k=NEIGHBOURS + 1, workers=threads())
-    far = np.abs(neighbour - np.arange(index.size)[:, None]) > apart
-    first = np.argmax(far, axis=1)
-    found = far[np.arange(index.size), first]
-    if found.sum() < FEWEST_PAIRS:
+    pick, neighbour, distance = _far_neighbours(features[index], apart)
+    if pick.size < FEWEST_PAIRS:
         return NoiseFloor(None, "the motion does not pass the same state twice")
-    pick = np.flatnonzero(found)
-    gap = distance[pick, first[pick]] ** 2
-    other = index[neighbour[pick, first[pick]]]
-    gamma = (residual[index[pick]] - residual[other]) ** 2 / 2.0
+    gap = distance**2
+    gamma = (residual[index[pick]] - residual[index[neighbour]]) ** 2 / 2.0
     # The nearest half says most about zero distance.
     near = gap <= np.median(gap)
     return NoiseFloor(float(min(np.sqrt(_at_zero(gap[near], gamma[near])), fit.rmse)))
+
+
+def _far_neighbours(
+    points: Array, apart: float
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """The points with a neighbour more than `apart` rows away, the nearest such, its distance."""
+    tree = scipy.spatial.cKDTree(points)
+    neighbour = np.full(len(points), -1, dtype=np.intp)
+    distance = np.full(len(points), np.inf)
+    for count in (FIRST_NEIGHBOURS, NEIGHBOURS):
+        left = np.flatnonzero(neighbour < 0)
+        gaps, near = tree.query(points[left], k=count + 1, workers=threads())
+        far = np.abs(near - left[:, None]) > apart
+        first = np.argmax(far, axis=1)
+        found = np.flatnonzero(far[np.arange(left.size), first])
+        neighbour[left[found]] = near[found, first[found]]
+        distance[left[found]] = gaps[found, first[found]]
+    pick = np.flatnonzero(neighbour >= 0)
+    return pick, neighbour[pick], distance[pick]
 
 
 def _passes_once(fit: Fit) -> bool:
