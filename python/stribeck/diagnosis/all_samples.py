@@ -7,7 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.diagnosis.residual.noise_floor import NoiseFloor
+from stribeck.diagnosis.residual.explainable import explainable
+from stribeck.diagnosis.residual.noise_floor import NoiseFloor, noise_floor
+from stribeck.diagnosis.residual.unexplained import unexplained
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.fitting.fit import fit
@@ -39,6 +41,20 @@ def with_excerpt_note(fitted: Fit, rows: int) -> Fit:
     """`fitted` with a note on how many samples effects were searched."""
     note = f"effects were searched on {rows} of {fitted.recording.rows} samples, in stretches"
     return replace(fitted, notes=(*fitted.notes, note))
+
+
+def with_remainder_on_all_samples(found: Diagnosis, whole: Fit) -> Diagnosis:
+    """A diagnosis of stretches with what remains on all samples: those of `whole`, its model."""
+    floor = noise_floor(whole)
+    if not found.unexplained.asked:
+        return replace(found, noise_floor=floor)
+    explained = None if floor.value is None else explainable(whole)
+    return replace(
+        found,
+        noise_floor=floor,
+        explainable=explained,
+        unexplained=unexplained(whole, floor, explained, last=not found.findings),
+    )
 
 
 def with_errors_on_all_samples(found: Diagnosis, whole: Fit) -> Diagnosis:

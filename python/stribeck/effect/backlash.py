@@ -72,6 +72,11 @@ def _flexible_shape(fit: Identified) -> list[Array]:
     ]
 
 
+def _alike(_: Identified, after: Identified) -> tuple[str, ...]:
+    """The torque of an elasticity is much like it, and needs a load torque known beforehand."""
+    return () if after.recording.load_torque is not None else ("elasticity",)
+
+
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
     return {
         "backlash_gap": 0.08 * joint.stroke,
@@ -98,6 +103,7 @@ EFFECT = Effect(
     constants=_constants,
     generated_constants=_generated_constants,
     flexible_shape=_flexible_shape,
+    alike=_alike,
     size_range=(5.0, 1e-2),
     design_note=(
         "teeth change flanks only where the load torque changes its sign: choose a payload or an "

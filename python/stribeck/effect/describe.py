@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from stribeck.effect.base import Identified, number
-from stribeck.effect.registry import of_catalog
+from stribeck.effect.registry import find, of_catalog
 from stribeck.models.catalog import catalog, effect_row, simpler_effect
 from stribeck.models.model import Model
 
@@ -33,6 +33,12 @@ def is_friction(effect: str) -> bool:
     """Whether the cause is friction; an effect by formula is assumed to be."""
     row = effect_row(effect)
     return row is None or row["group"] not in NOT_FRICTION
+
+
+def is_drive_train(effect: str) -> bool:
+    """Whether the effect describes a drive train by what it does to the load torque."""
+    known = find(effect)
+    return known is not None and known.in_motion == "drive train"
 
 
 def base_of(effect: str) -> tuple[str, ...]:

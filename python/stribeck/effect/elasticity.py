@@ -72,6 +72,18 @@ def _where(before: Identified, after: Identified) -> str:
     )
 
 
+def _unresolved(after: Identified) -> str | None:
+    """Central differences, taken twice, add dt^2/3 of the second derivative to an acceleration."""
+    share, period = after.model.value("elasticity"), after.recording.scales()["sample_period"]
+    if abs(share) > period**2:
+        return None
+    hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
+    return (
+        f"the drive train would oscillate at {number(float(hertz))} Hz, and a load torque from "
+        f"differences between samples is off by as much"
+    )
+
+
 def _flexible_shape(fit: Identified) -> list[Array]:
     """Damping of the twist, and the share of the motor's inertia in the torque of the spring."""
     r = fit.recording
@@ -95,6 +107,7 @@ EFFECT = Effect(
     plausible=_plausible,
     refusal=_refusal,
     flexible_shape=_flexible_shape,
+    unresolved=_unresolved,
     design_note=(
         "a motion at one end of the drive train shows its twist only where the load torque changes "
         "fast: record the positions at motor and joint as well"

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.effect.base import Identified
-from stribeck.models.rigid_body import own_load
+from stribeck.models.rigid_body import load_torque
 
 Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ def friction_by_load(fit: Identified) -> float | None:
     None where it does not, or where no load torque is known.
     """
     r, m = fit.recording, fit.model
-    load = own_load(m, r) if r.load_torque is None else r.load_torque
+    load = load_torque(m, r)
     if load is None or r.position is None:
         return None
     place = r.position[fit.rows]

@@ -10,6 +10,7 @@ from typing import TypeAlias, TypedDict, TypeVar
 
 import numpy as np
 
+from stribeck.base.arguments import RULES
 from stribeck.base.errors import SpecError, nearest, one_line, option
 from stribeck.identify.algorithms import check_algorithm
 from stribeck.identify.statements import (
@@ -90,7 +91,16 @@ class Choices:
         """From keyword arguments: mappings, or ``NAME=VALUE`` texts as on the command line.
 
         An end of bounds that is left out is unbounded.
+
+        Raises
+        ------
+        SpecError
+            An argument of another name, or one in another form.
         """
+        for name in arguments:
+            if name not in CHOICE_NAMES:
+                hint = nearest(name, (*CHOICE_NAMES, *RULES))
+                raise SpecError(f"there is no argument `{name}`{hint}")
         constraints, loss = arguments.get("constraints") or (), arguments.get("loss")
         algorithm = arguments.get("algorithm")
         if not isinstance(constraints, Iterable) or not all(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck import _core
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import SpecError, nearest
 
 Array = NDArray[np.float64]
 
@@ -128,7 +128,16 @@ def split_columns(
 
     A channel that is not given is at the middle of the operating `box`; the time is at the middle
     of the recording, the derivatives of load and temperature are 0.
+
+    Raises
+    ------
+    SpecError
+        A channel of another name, or one that is no array of numbers.
     """
+    for name in given:
+        if name not in OTHER_CHANNELS:
+            hint = nearest(name, OTHER_CHANNELS)
+            raise SpecError(f"there is no channel `{name}`{hint}")
     found = {"velocity": column("velocity", np.atleast_1d(velocity))}
     for name in OTHER_CHANNELS:
         values = given.get(name)

@@ -209,9 +209,21 @@ class Model(Shown):
         return float(self.values[self.names.index(name)])
 
     def with_values(self, values: ArrayLike) -> Model:
-        """The same model with other values, array [p]."""
+        """The same model with other values, array [p].
+
+        Raises
+        ------
+        SpecError
+            There are more or fewer values than parameters.
+        """
+        given = np.asarray(values, dtype=float)
+        if given.shape != (len(self.names),):
+            raise SpecError(
+                f"{self.spec} has {len(self.names)} parameters, and an array {list(given.shape)} "
+                f"was given: give a value for each, in the order of `names`"
+            )
         made = object.__new__(Model)  # it shares what is compiled
-        vars(made).update(vars(self), _origin=Origin(), values=np.asarray(values, dtype=float))
+        vars(made).update(vars(self), _origin=Origin(), values=given)
         made.__post_init__()
         return made
 

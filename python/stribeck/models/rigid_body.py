@@ -22,6 +22,11 @@ def own_load(model: Model, recording: Recording) -> Array | None:
     return load if gravity is None else load + gravity
 
 
+def load_torque(model: Model, recording: Recording) -> Array | None:
+    """Load torque as recorded, else that of the identified rigid body, [n]; None without both."""
+    return own_load(model, recording) if recording.load_torque is None else recording.load_torque
+
+
 def own_gravity(model: Model, recording: Recording) -> Array | None:
     """Gravity torque identified by `model`, [n]; None if it has none."""
     if "gravity" not in model.rigid_body or recording.position is None:

@@ -10,7 +10,7 @@ from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.ranking import ranked
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
-from stribeck.diagnosis.trials.trial import Trial
+from stribeck.diagnosis.trials.trial import TIE, Trial, tie_statistic
 from synthetic import joint, record
 
 
@@ -33,3 +33,15 @@ def test_an_effect_that_predicts_as_well_lowers_the_confidence(tmp_path: Path, h
     assert confidence(Sifted((trial,))) == (pytest.approx(1.0, abs=1e-3), ())
     value, names = confidence(Sifted((trial,), **{how: (other,)}))
     assert 0.45 < value < 0.9 and names == ("direction",)
+
+
+def test_a_much_worse_rival_is_not_named(tmp_path: Path) -> None:
+    before = sb.fit("coulomb", record(tmp_path, joint(0.5)), starts=1)
+    after = sb.add(before, "offset", starts=1)
+    trial = Trial("offset", after, evidence(before, after))
+    other = sb.add(before, "position", starts=1)
+    rival = Trial("position", other, evidence(before, other))
+    assert tie_statistic(trial, rival) > TIE
+    sift = Sifted((trial,), demoted=(Doubted(rival, "a reason"),))
+    (first,) = ranked(before, sift, 20, 0.01, noise_floor(after), 0).findings
+    assert first.indistinguishable_from == ()

@@ -43,3 +43,9 @@ def test_it_is_structure_though_no_channel_explains_it(tmp_path: Path) -> None:
     found = sb.diagnose(sb.fit("coulomb", recording))
     assert found.verdict == "unexplained"
     assert found.unexplained.share is not None and found.unexplained.share > 0.4
+
+
+def test_a_slow_oscillation_lasts(tmp_path: Path) -> None:
+    # As a payload swings: its autocovariance is negative a quarter of a second later.
+    time = np.arange(ROWS) / RATE
+    assert lasting(tmp_path, 4 * NOISE * np.sin(2 * np.pi * 1.7 * time)) > 0.3 * 8.0

@@ -120,7 +120,7 @@ def test_where_no_position_is_passed_twice_a_wave_is_not_called_noise(tmp_path: 
     assert not floor.is_reached_by(0.03)
     found = sb.improve("coulomb", record(tmp_path, turning(0.5), "again"))
     assert found.stopped == "nothing_passes"
-    assert found.unexplained.where is not None and "keeps its sign" in found.unexplained.where
+    assert found.unexplained.where is not None and "lasts longer" in found.unexplained.where
 
 
 def test_white_noise_needs_no_repeats(tmp_path: Path) -> None:

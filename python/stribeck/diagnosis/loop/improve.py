@@ -13,7 +13,12 @@ from stribeck.base.arguments import door
 from stribeck.base.errors import FitError
 from stribeck.base.pool import on_threads
 from stribeck.base.shown import Plotted
-from stribeck.diagnosis.all_samples import on_all_samples, with_errors_of, with_excerpt_note
+from stribeck.diagnosis.all_samples import (
+    on_all_samples,
+    with_errors_of,
+    with_excerpt_note,
+    with_remainder_on_all_samples,
+)
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.loop.determined import known_combinations, undetermined
 from stribeck.diagnosis.loop.passive import MadePassive, cost_of_passivity
@@ -266,16 +271,17 @@ def _on_all_samples(
     progress(f"identifying the models on all {recording.rows} samples")
     transient = rows_left_out(recording)
     rows = path.start.recording.rows
-    *earlier, last = [path.start, *(step.after for step in path.steps)]
+    *earlier, final_model = [path.start, *(step.after for step in path.steps)]
     with on_threads() as pool:
-        final = pool.submit(on_all_samples, last, recording, transient, FROM_NEARBY)
+        final = pool.submit(on_all_samples, final_model, recording, transient, FROM_NEARBY)
         # Only the errors of the earlier models are needed.
         fits = list(pool.map(lambda found: on_all_samples(found, recording, transient), earlier))
         fits.append(with_excerpt_note(final.result(), rows))
+    remains = with_remainder_on_all_samples(path.last, fits[-1])
     steps = [
         ImprovementStep(
-            with_errors_of(step.finding, before, after, path.last.noise_floor), before, after
+            with_errors_of(step.finding, before, after, remains.noise_floor), before, after
         )
         for step, (before, after) in zip(path.steps, itertools.pairwise(fits), strict=True)
     ]
-    return replace(path, start=fits[0], steps=tuple(steps))
+    return replace(path, start=fits[0], last=remains, steps=tuple(steps))

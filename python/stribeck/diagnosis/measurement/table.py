@@ -10,10 +10,17 @@ from stribeck.diagnosis.measurement.cause import Array, MeasurementCause
 from stribeck.diagnosis.measurement.late_channels import LATE_CHANNELS
 from stribeck.diagnosis.measurement.late_thermometer import LATE_THERMOMETER
 from stribeck.diagnosis.measurement.load_scale import LOAD_SCALE
+from stribeck.diagnosis.measurement.noisy_load import NOISY_LOAD
 from stribeck.diagnosis.measurement.warm_up import WARM_UP
 from stribeck.fitting.result import Fit
 
-CAUSES: tuple[MeasurementCause, ...] = (WARM_UP, LATE_CHANNELS, LOAD_SCALE, LATE_THERMOMETER)
+CAUSES: tuple[MeasurementCause, ...] = (
+    WARM_UP,
+    LATE_CHANNELS,
+    LOAD_SCALE,
+    LATE_THERMOMETER,
+    NOISY_LOAD,
+)
 
 
 def measurement_columns(fit: Fit) -> dict[str, Array]:

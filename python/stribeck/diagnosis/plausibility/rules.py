@@ -14,6 +14,7 @@ from stribeck.diagnosis.plausibility.cancelling import cancelling
 from stribeck.diagnosis.plausibility.claim import Claim, first_reason
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
 from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
+from stribeck.diagnosis.plausibility.noise_of_load import noise_of_load
 from stribeck.diagnosis.plausibility.other_part import other_part_changes
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.too_large import too_large
@@ -32,6 +33,7 @@ IMPOSSIBLE: tuple[Rule, ...] = (
     unresolved,
     out_of_reach,
     other_part_changes,
+    noise_of_load,
 )
 #: Nor is one with which another effect of the model breaks one of these.
 OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved, out_of_reach)

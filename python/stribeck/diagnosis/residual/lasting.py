@@ -2,7 +2,8 @@
 
 Noise of a sensor, behind its filters, is forgotten within a tenth of a second. What is still there
 a quarter of a second later is torque, whether or not the joint passes the same state again. A
-vibration changes its sign meanwhile, and its mean over these times is zero.
+vibration changes its sign several times meanwhile, and its mean over these times is zero; that of a
+slow oscillation is not, though it may be negative.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ TIMES = 9
 def lasting_square(fit: Fit) -> float:
     """Mean square of the residual that lasts, in squared units of torque; 0 where it is not known.
 
-    It is the mean autocovariance over times after which noise is forgotten.
+    It is the size of the mean autocovariance over times after which noise is forgotten.
     """
     r = fit.recording
     if r.averaged:
@@ -38,4 +39,4 @@ def lasting_square(fit: Fit) -> float:
         if step < r.rows
     ]
     means = [float(np.nanmean(p)) for p in products if np.isfinite(p).sum() >= FEWEST_PAIRS]
-    return max(float(np.mean(means)), 0.0) if len(means) == steps.size else 0.0
+    return abs(float(np.mean(means))) if len(means) == steps.size else 0.0

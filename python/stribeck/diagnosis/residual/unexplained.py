@@ -140,7 +140,7 @@ def _varying(fit: Fit, varying: VaryingFriction) -> str:
 
 def _lasting(share: float) -> str:
     return (
-        f"{number(100.0 * share, 2)} % of it keeps its sign for longer than the noise of a sensor, "
+        f"{number(100.0 * share, 2)} % of it lasts longer than the noise of a sensor, "
         f"but no function of the recorded channels explains it"
     )
 

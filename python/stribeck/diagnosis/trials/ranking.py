@@ -82,7 +82,7 @@ def ranked(
     doubtful = _doubtful_ties(best, sift, tried, least, seed)
     total = claimed + sum(doubtful.values())
     alike = [t.effect for t in tied]
-    named = [*alike, *doubtful]
+    named = [*alike, *(e for e, weight in doubtful.items() if weight >= tie_weight(TIE))]
     made = []
     for t in ordered:
         chance = min(1.0, t.evidence.p_value * tried)

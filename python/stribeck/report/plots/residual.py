@@ -135,13 +135,13 @@ def spectrum(page: Page) -> Figure:
     r = page.fits[0].recording
     rows = _longest_stretch(r)
     (axes,) = page.panels(1)
-    density = _density((r.torque - load_torque(page.fits))[rows], r.rate_hz)
-    axes.loglog(*density, color=MEASURED, linewidth=0.8, alpha=0.6)
+    friction = r.torque - load_torque(page.fits)
+    axes.loglog(*_density(friction, rows, r), color=MEASURED, linewidth=0.8, alpha=0.6)
     for k, fit in enumerate(page.fits):
-        axes.loglog(*_density(fit.residual[rows], r.rate_hz), **page.line(k))
+        axes.loglog(*_density(fit.residual, rows, r), **page.line(k))
     axes.grid(True, which="minor", color="#f2f2f2", linewidth=0.4)
     axes.set_xlabel("frequency [Hz]")
-    axes.set_ylabel(f"density of the residual [{r.torque_unit}/√Hz]")
+    axes.set_ylabel(f"spectral density in motion [{r.torque_unit}/√Hz]")
     return page.finished([axes], measured="measured friction", as_line=True)
 
 
@@ -158,11 +158,19 @@ def _longest_stretch(r: Recording) -> NDArray[np.intp]:
     return rows
 
 
-def _density(values: Array, rate: float) -> tuple[Array, Array]:
-    """Frequencies above 0 and the amplitude spectral density."""
-    length = min(_STRETCH, values.size // 2)
-    frequency, power = scipy.signal.welch(values, fs=rate, nperseg=length, detrend="constant")
-    return frequency[1:], np.sqrt(power[1:])
+def _density(values: Array, rows: NDArray[np.intp], r: Recording) -> tuple[Array, Array]:
+    """Frequencies above 0 and the amplitude spectral density of the scored samples among `rows`.
+
+    Samples at rest count as zero, and the density is that of the time in motion.
+    """
+    moving = r.moving[rows]
+    if not moving.any():
+        raise SpecError(f"{r.path} has no motion in its longest stretch without a gap")
+    scored = values[rows]
+    masked = np.where(moving, scored - scored[moving].mean(), 0.0)
+    length = min(_STRETCH, masked.size // 2)
+    frequency, power = scipy.signal.welch(masked, fs=r.rate_hz, nperseg=length, detrend=False)
+    return frequency[1:], np.sqrt(power[1:] / np.mean(moving))
 
 
 def _residual_label(r: Recording) -> str:
