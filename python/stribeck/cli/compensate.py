@@ -17,6 +17,7 @@ from stribeck.cli.common import (
     seed_option,
 )
 from stribeck.cli.motion import (
+    check_joint,
     joint_of,
     joint_options,
     model_of,
@@ -136,6 +137,7 @@ def compensate(
     asked = _known(model, values)
     friction = asked if plant is None else _known(plant)
     joint = joint_of(sizes)
+    check_joint(model if plant is None else plant, _model_of(friction), joint)
     moved = take_apart(_model_of(friction), joint).joint
     cancels = [_known(other) for other in others] + [asked]
     factors = [_factor(share, each, friction, sides) for each in cancels]

@@ -87,6 +87,13 @@ def model_of(argument: str, values: tuple[str, ...]) -> Model:
     return named(argument, **given)
 
 
+def check_joint(argument: str, known: Model, joint: Joint | None) -> None:
+    """Refuse to put the friction of a revolute joint, from a file, on a prismatic one."""
+    prismatic = joint is not None and joint.kind == "prismatic"
+    if prismatic and is_model_file(argument) and known.position_unit == "rad":
+        raise SpecError(f"{argument} is in N m and rad: give --inertia, not --mass")
+
+
 def joint_of(sizes: Values) -> Joint | None:
     """The joint that the options describe; None if they describe none."""
     inertia, mass = sizes["inertia"], sizes["mass"]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure, write_table
@@ -19,6 +20,7 @@ from stribeck.cli.common import (
 )
 from stribeck.cli.motion import (
     at_the_joint,
+    check_joint,
     joint_of,
     joint_options,
     model_of,
@@ -36,6 +38,9 @@ from stribeck.motion.simulate.run import simulate as move
 
 #: Bandwidth of the closed loop of inertia and controller, Hz.
 BANDWIDTH = 5.0
+#: Options that drive the joint without a controller, and those that only a controller reads.
+OPEN_LOOP = ("torque", "spring")
+CLOSED_LOOP = ("trajectory", "to", "kp", "ki", "kd", "bandwidth", "limit", "feedforward")
 #: Default duration of a push or pull, s.
 SECONDS = 10.0
 
@@ -127,6 +132,8 @@ def simulate(
     """
     asked = model_of(model, values)
     joint = _with_transmission(joint_of(sizes), sizes)
+    check_joint(model, asked, joint)
+    _refuse_ignored(sizes)
     drive = _drive(sizes, take_apart(asked, joint).joint, seed)
     if seconds is None and not isinstance(drive, Follow):
         seconds = SECONDS
@@ -168,6 +175,19 @@ def _with_transmission(joint: Joint | None, sizes: Values) -> Joint | None:
     return replace(joint, transmission=apart)
 
 
+def _refuse_ignored(sizes: Values) -> None:
+    """Refuse options of the closed loop beside an open-loop drive, which does not read them."""
+    context = click.get_current_context()
+    alone = next((name for name in OPEN_LOOP if sizes[name] is not None), None)
+    for option in context.command.params if alone is not None else ():
+        name = option.name or ""
+        if name in CLOSED_LOOP and context.get_parameter_source(name) != ParameterSource.DEFAULT:
+            raise SpecError(
+                f"{option.opts[0]} is of the closed loop, and --{alone} drives the joint without "
+                f"one: omit one of them"
+            )
+
+
 def _drive(sizes: Values, joint: Joint, seed: int) -> Drive:
     """The drive of the joint."""
     torque, spring, speed = sizes["torque"], sizes["spring"], sizes["pull_speed"]
@@ -187,6 +207,8 @@ def _drive(sizes: Values, joint: Joint, seed: int) -> Drive:
 
 def _controller(sizes: Values, joint: Joint) -> Controller:
     """The given gains; the others place both poles of the joint at the bandwidth."""
+    if not sizes["bandwidth"] > 0.0:
+        raise SpecError(f"--bandwidth {sizes['bandwidth']:g}: give a positive number, in Hz")
     frequency = math.tau * sizes["bandwidth"]
     kp, kd = sizes["kp"], sizes["kd"]
     return Controller(

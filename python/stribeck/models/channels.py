@@ -136,7 +136,7 @@ def split_columns(
     """
     for name in given:
         if name not in OTHER_CHANNELS:
-            hint = nearest(name, OTHER_CHANNELS)
+            hint = nearest(name, OTHER_CHANNELS) or f": give some of {', '.join(OTHER_CHANNELS)}"
             raise SpecError(f"there is no channel `{name}`{hint}")
     found = {"velocity": column("velocity", np.atleast_1d(velocity))}
     for name in OTHER_CHANNELS:

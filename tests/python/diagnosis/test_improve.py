@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.residual.noise_floor import noise_floor
 from synthetic import joint, motion, record
 
 
@@ -176,3 +177,21 @@ def test_ctrl_c_keeps_the_steps_that_were_made(recording: sb.Recording) -> None:
         told.clear()
         with pytest.raises(KeyboardInterrupt):
             sb.improve("coulomb", recording, progress=stopped_at(search), keep_when_stopped=keep)
+
+
+def test_an_argument_of_another_name_is_refused(recording: sb.Recording) -> None:
+    with pytest.raises(sb.SpecError, match="no argument `max_steps`; did you mean 'most_steps'"):
+        sb.improve("coulomb", recording, max_steps=1)  # type: ignore[call-arg]
+    with pytest.raises(sb.SpecError, match="no argument `fixed`; did you mean 'fix'"):
+        sb.fit("coulomb", recording, fixed={"a1": 9.0})  # type: ignore[call-arg]
+
+
+def test_what_remains_is_that_of_all_samples(recording: sb.Recording) -> None:
+    """The models are identified on all samples, and the errors are theirs."""
+    found = sb.improve("coulomb", recording, sample_rows=recording.rows // 2, starts=2)
+    final = found.final.rmse_held_out
+    assert final is not None and found.noise_floor.value is not None
+    assert found.noise_floor == noise_floor(found.final)
+    assert found.last.explainable is not None
+    left = (1.0 - found.last.explainable.left) ** 0.5 * final
+    assert found.last.explainable.rmse == pytest.approx(left, rel=0.1)

@@ -335,3 +335,18 @@ def test_the_spec_that_a_refusal_proposes_is_one() -> None:
         with pytest.raises(SpecError, match="write ") as refused:
             sb.model(spec)
         assert sb.model(str(refused.value).partition("write ")[2]).law in ("coulomb", "lugre")
+
+
+def test_values_of_another_number_are_refused() -> None:
+    model = sb.model("coulomb", a1=1.0, a2=2.0)
+    for given in ([1.0], [1.0, 2.0, 3.0], 1.0):
+        with pytest.raises(SpecError, match="coulomb has 2 parameters"):
+            model.with_values(given)
+
+
+def test_a_channel_that_no_model_reads_is_refused() -> None:
+    model = sb.model("coulomb", a1=1.0, a2=2.0)
+    with pytest.raises(SpecError, match="there is no channel `load`: give some of position"):
+        model.split([1.0], load=[3.0])
+    with pytest.raises(SpecError, match="did you mean 'temperature'"):
+        model.split([1.0], temperatur=[30.0])

@@ -131,3 +131,17 @@ def test_of_two_models_alike_the_stored_one_is_named(fits) -> None:
     figure = sb.plot(fits[0].recording, [fits[0], stored], "residual-velocity")
     named = [text.get_text() for text in figure.legends[0].get_texts()]
     assert named == ["coulomb", "coulomb, not refitted"]
+
+
+def test_the_spectrum_is_that_of_the_scored_samples() -> None:
+    """Its integral is the squared error of the model, though the torque at rest is not modelled."""
+    t = np.arange(8000) / 100.0
+    v = np.where(np.sin(2 * np.pi * t / 7) > 0.5, 0.0, np.sin(2 * np.pi * t))
+    noise = 0.1 * np.random.default_rng(0).standard_normal(t.size)
+    torque = np.where(v == 0.0, 20.0, 3.0 * np.sign(v) + v) + noise
+    recording = sb.Recording.from_columns(time=t, velocity=v, torque=torque)
+    fit = sb.fit("coulomb", recording, starts=1)
+    _, line = sb.plot(recording, [fit], "spectrum").axes[0].get_lines()
+    frequency, density = line.get_xdata(), line.get_ydata()
+    square = float(np.sum(density**2) * (frequency[1] - frequency[0]))
+    assert square == pytest.approx(fit.rmse**2, rel=0.2)

@@ -46,8 +46,6 @@ def take_apart(model: Model, joint: Joint | None) -> Acting:
     friction, left_out = friction_of(model)
     if joint is not None and joint.kind == "revolute" and plain.position_unit == "m":
         raise SpecError(f"{plain.spec} is in N and m: give the mass of a prismatic joint")
-    if joint is not None and joint.kind == "prismatic" and plain.position_unit == "rad":
-        raise SpecError(f"{plain.spec} is in N m and rad: give the inertia of a revolute joint")
     known = dict(zip(plain.names, plain.values, strict=True))
     return Acting(friction, _joint(plain, joint, known), left_out)
 

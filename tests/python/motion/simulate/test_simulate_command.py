@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -145,3 +146,25 @@ def test_the_torque_before_a_ball_screw_is_that_of_the_motor():
     turned, pushed = json.loads(by_torque.stdout), json.loads(by_force.stdout)
     assert pushed["share_at_rest"] == turned["share_at_rest"] < 1.0
     assert turned["position"]["max"] == pytest.approx(pushed["position"]["max"], rel=1e-3)
+
+
+@pytest.mark.parametrize("option", [("--limit", "5"), ("--kp", "5"), ("--feedforward",)])
+def test_options_of_the_closed_loop_are_refused_beside_a_push(option: tuple[str, ...]) -> None:
+    done = run(*COULOMB, "--inertia", "1", "--torque", "12", *option)
+    assert isinstance(done.exception, SpecError)
+    assert str(done.exception).startswith(f"{option[0]} is of the closed loop, and --torque")
+
+
+def test_a_bandwidth_of_zero_is_refused() -> None:
+    done = run(*COULOMB, "--inertia", "1", "--bandwidth", "0")
+    assert isinstance(done.exception, SpecError) and "--bandwidth 0" in str(done.exception)
+
+
+def test_a_model_file_of_a_revolute_joint_is_not_put_on_a_mass(tmp_path: Path) -> None:
+    path = tmp_path / "joint.toml"
+    sb.model("coulomb", a1=0.5, a2=2.0).save(path)
+    for command in (["simulate"], ["compensate"]):
+        words = [*command, str(path), "--mass", "2"]
+        done = CliRunner().invoke(cli, words, standalone_mode=False)
+        assert isinstance(done.exception, SpecError)
+        assert "is in N m and rad: give --inertia, not --mass" in str(done.exception)
