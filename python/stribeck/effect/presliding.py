@@ -34,7 +34,7 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     if facts.reversals >= FEWEST_REVERSALS:
         return None
     return Obstacle(
-        f"there are {facts.reversals} reversals",
+        f"there {'is 1 reversal' if facts.reversals == 1 else f'are {facts.reversals} reversals'}",
         "record small back-and-forth motions through zero speed",
     )
 

@@ -43,7 +43,7 @@ Array = NDArray[np.float64]
 Estimator = Literal["ls", "iv"]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Fit(Plotted):
     """A model identified on a recording.
 

@@ -13,7 +13,7 @@ __all__ = ["ParameterMatrix"]
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ParameterMatrix:
     """A symmetric matrix of identified parameters.
 

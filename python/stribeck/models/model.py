@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 RIGID_BODY_EFFECTS = ("inertia", "gravity")
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, eq=False)
 class Model(Shown):
     """A friction law with effects, and the values of its parameters.
 

@@ -14,7 +14,7 @@ from stribeck.models.model import Model
 from stribeck.models.writer import add_model, model_toml, write_model
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ModelFile:
     """A model with its standard errors and provenance, as stored.
 

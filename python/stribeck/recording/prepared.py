@@ -92,7 +92,8 @@ def joint_rows(prepared: Prepared, joint: str | None) -> tuple[str | None, Ints]
     joints = joints_of(prepared)
     everything = np.arange(prepared.table.height)
     if not joints:
-        if joint is not None and not wide_groups(prepared.table.columns):
+        named = wide_groups(prepared.table.columns) or joint in prepared.source.joints
+        if joint is not None and not named:
             raise RecordingError(
                 f"{path}: there is no joint column to find '{joint}' in: leave out "
                 f"{option('joint')}, or name the column with {option('map', 'joint=COLUMN')}"

@@ -350,3 +350,9 @@ def test_a_channel_that_no_model_reads_is_refused() -> None:
         model.split([1.0], load=[3.0])
     with pytest.raises(SpecError, match="did you mean 'temperature'"):
         model.split([1.0], temperatur=[30.0])
+
+
+def test_models_and_fits_can_be_compared_and_kept_in_sets() -> None:
+    """By identity: their arrays have no single truth value."""
+    one, other = (sb.model("coulomb", a1=1.0, a2=2.0) for _ in range(2))
+    assert one == one and one != other and len({one, other, one}) == 2

@@ -37,7 +37,8 @@ def noise_of_load(claim: Claim) -> str | None:
     total, there = float(np.sum(gain)), float(np.sum(gain[idle]))
     if idle.sum() < FEWEST or there < MOST * total:
         return None
+    share = 100.0 * min(there / total, 1.0)
     return (
-        f"{number(100.0 * min(there / total, 1.0), 2)} % of what it gains is where the load torque is within "
-        f"its own noise, so it removes that noise"
+        f"{number(share, 2)} % of what it gains is where the load torque is within its own noise, "
+        f"so it removes that noise"
     )

@@ -86,18 +86,18 @@ class _Halves:
         """Where the effect is larger."""
         larger, smaller = (self.upper, self.lower) if change > 0 else (self.lower, self.upper)
         ratio = _ratio(change)
-        much = f"{number(ratio)} times as large as" if ratio < 10.0 else "much larger than"
-        return f"its torque is not the same everywhere: {larger} it is {much} {smaller}"
+        much = f"{number(ratio)} times" if ratio < 10.0 else "many times"
+        return f"its torque is not the same everywhere: {larger} it is {much} that {smaller}"
 
 
 def _all_halves(fit: Fit) -> Iterator[_Halves]:
     r, rows = fit.recording, fit.rows
     yield _Halves(np.abs(r.velocity[rows]), "in slow motion", "in fast motion")
-    yield _Halves(r.elapsed[rows], "in the first part of the recording", "in the last part")
+    yield _Halves(r.elapsed[rows], "in the first part of the recording", "in the last part of it")
     for values, lower, upper in (
-        (r.position, "at low positions", "at high ones"),
+        (r.position, "at low positions", "at high positions"),
         (r.load_torque, "at low load torque", "at high load torque"),
-        (r.temperature, "at low temperatures", "at high ones"),
+        (r.temperature, "at low temperatures", "at high temperatures"),
     ):
         if values is not None:
             yield _Halves(values[rows], lower, upper)

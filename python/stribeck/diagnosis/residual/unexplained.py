@@ -147,8 +147,8 @@ def _lasting(share: float) -> str:
 
 def _repeated(fit: Fit, floor: float) -> str:
     return (
-        f"repeats of the same state differ by only {number(floor, 2)} {fit.model.torque_unit}, so "
-        f"the error repeats with the motion, but no function of the recorded channels explains it "
+        f"repeats of the same state typically differ by only {number(floor, 2)} "
+        f"{fit.model.torque_unit}, but no function of the recorded channels explains the rest "
         f"(structural vibration, for example)"
     )
 

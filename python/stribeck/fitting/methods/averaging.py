@@ -86,7 +86,8 @@ def averaged_points(
     alone = len(lines) - 2 * len(pairs)
     notes = [f"{len(pairs)} pairs of passes; friction is taken as the same in both directions"]
     if alone:
-        notes.append(f"{alone} passes have no counterpart in the other direction and are left out")
+        left_out = "pass has" if alone == 1 else "passes have"
+        notes.append(f"{alone} {left_out} no counterpart in the other direction: left out")
     return checked_points(points, recording, "averaging", notes)
 
 

@@ -46,7 +46,7 @@ def check_load(view: View) -> Check | None:
             "load_torque",
             False,
             f"the torque holds {load.value:.4g} times the load torque ('{column}'){what}",
-            f"{_units(view, load.value)}, or leave the load out with "
+            f"{_units(view, load.value)}; or leave the load out with "
             f"{option('map', 'load_torque=none')}",
         )
     return Check(
@@ -63,5 +63,8 @@ def _units(view: View, ratio: float) -> str:
         for unit in units:
             if unit is not None and factor < 1.0 and abs(factor / unit.factor - 1.0) < 0.05:
                 given = option("unit", f"{view.column(channel)}={unit.name}")
-                return f"the likeliest unit is given by {given}"
+                gear = option("gear_ratio", float(f"{1.0 / abs(ratio):.3g}"))
+                before = f"; if the torque was measured before a gear, give {gear} and "
+                before += option("torque_at", "motor")
+                return f"the likeliest unit is given by {given}{before if abs(ratio) < 1.0 else ''}"
     return f"give the units of both with {option('unit', 'COLUMN=UNIT')}"

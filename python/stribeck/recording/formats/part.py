@@ -72,8 +72,9 @@ class Part:
         return "time" in channels and not channels.isdisjoint(("position", "velocity"))
 
     def shown(self) -> str:
-        """Name and size."""
-        return f"{self.name} ({self.table.height} rows)"
+        """Name, joints and size."""
+        joints = f" of {', '.join(self.joints)}" if self.joints else ""
+        return f"{self.name}{joints} ({self.table.height} rows)"
 
 
 def merged(parts: Sequence[Part]) -> list[Part]:
@@ -106,6 +107,10 @@ def chosen(file: Entered, parts: Sequence[Part], asked: Asked) -> Read:
     """
     if not parts:
         raise RecordingError(f"{file.name}: holds no arrays of numbers")
+    # Several publishers share a topic: an arm and its gripper, for example.
+    of_joint = [part for part in parts if asked.joint is not None and asked.joint in part.joints]
+    if of_joint:
+        parts = of_joint
     named = {i: asked.among(part.table.columns) for i, part in enumerate(parts)}
     holding = [i for i in named if named[i]]
     if not holding:
@@ -152,10 +157,10 @@ def _by_worth(file: Entered, parts: Sequence[Part]) -> int:
     recorded = [i for i, part in enumerate(parts) if part.recorded and part.table.height > 1]
     if len(recorded) > 1:
         shown = ", ".join(parts[i].shown() for i in recorded[:_SHOWN])
-        choices = " or ".join(_choice(parts[i]) for i in recorded[:2])
+        choices = " or ".join(_choice(parts, i) for i in recorded[:2])
         raise RecordingError(
             f"{file.name}: holds {len(recorded)} recordings with rows of their own: {shown}: "
-            f"choose one by a column of it, {choices}"
+            f"choose one with {choices}"
         )
     if recorded:
         return recorded[0]
@@ -163,8 +168,12 @@ def _by_worth(file: Entered, parts: Sequence[Part]) -> int:
     return max(long, key=lambda i: (parts[i].table.width, parts[i].table.height))
 
 
-def _choice(part: Part) -> str:
-    """The option that chooses a part, by a column that no other part has."""
+def _choice(parts: Sequence[Part], which: int) -> str:
+    """The option that chooses a part, by a joint or a column that no other part has."""
+    part, others = parts[which], [*parts[:which], *parts[which + 1 :]]
+    own = [joint for joint in part.joints if all(joint not in o.joints for o in others)]
+    if own:
+        return option("joint", own[0])
     names = part.table.columns
     clock = next((c for c in names if parse_name(c).channel == "time"), None)
     if part.clock is None and clock is not None:

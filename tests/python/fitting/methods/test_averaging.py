@@ -61,7 +61,7 @@ def test_a_pass_without_counterpart_is_left_out_and_said(tmp_path: Path) -> None
     last = frame["time"][-1] - 0.8 / 0.6 - 0.8
     points = averaged_points(read(tmp_path, frame.filter(pl.col("time") < last)))
     assert len(points) == 1
-    assert any("1 passes have no counterpart" in note for note in points.notes)
+    assert any("1 pass has no counterpart" in note for note in points.notes)
 
 
 def test_passes_in_one_direction_alone_are_refused(tmp_path: Path) -> None:

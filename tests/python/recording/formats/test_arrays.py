@@ -30,7 +30,7 @@ def test_two_recordings_of_a_file_are_asked_about(tmp_path, frame):
     savemat(path, {"slow": _log(frame, 500), "fast": _log(frame, 2000)})
     with pytest.raises(RecordingError, match="holds 2 recordings with rows of their own") as asked:
         read(path)
-    assert 'choose one by a column of it, `map="time=t"` or `map="time=fast.t"`' in str(asked.value)
+    assert 'choose one with `map="time=t"` or `map="time=fast.t"`' in str(asked.value)
     assert read(path, map="time=t").rows == 500
     fast = read(path, map=[f"{c}=fast.{n}" for c, n in
                            [("time", "t"), ("position", "q"), ("velocity", "dq"),

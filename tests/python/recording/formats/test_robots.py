@@ -57,6 +57,17 @@ def test_a_topic_of_another_rate_is_put_on_the_clock_of_the_torque(tmp_path, sma
                for note in recording.notes)  # fmt: skip
 
 
+def test_the_publisher_of_a_joint_is_chosen(tmp_path, small):
+    """An arm and its gripper publish on one topic, each its own joints."""
+    path = tmp_path / "log.mcap"
+    written.mcap_of_two_publishers(path, small)
+    with pytest.raises(RecordingError, match='`joint="shoulder"` or `joint="finger"`'):
+        read(path)
+    _same(read(path, joint="elbow"), small)
+    finger = read(path, joint="finger")
+    np.testing.assert_array_equal(finger.position, 0.5 * small["position"].to_numpy())
+
+
 def test_mcap_of_json(tmp_path, small):
     path = tmp_path / "log.mcap"
     written.mcap_json(path, small)

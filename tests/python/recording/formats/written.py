@@ -73,6 +73,23 @@ def mcap_ros2(path: Path, frame: pl.DataFrame, compression: str = "ZSTD") -> Non
         writer.finish()
 
 
+def mcap_of_two_publishers(path: Path, frame: pl.DataFrame) -> None:
+    """An MCAP file of /joint_states with the joints of an arm, and with those of its gripper."""
+    from mcap_ros2.writer import Writer
+
+    both = joints(frame)
+    with open(path, "wb") as stream:
+        writer = Writer(stream)
+        schema = writer.register_msgdef("sensor_msgs/msg/JointState", JOINT_STATE)
+        for i, stamp in enumerate(stamps(frame)):
+            message = state(frame, i, both, stamp)
+            writer.write_message("/joint_states", schema, message, stamp, stamp)
+            own = {key: [0.5 * message[key][1]] for key in ("position", "velocity", "effort")}
+            gripper = {**message, "name": ["finger"], **own}
+            writer.write_message("/joint_states", schema, gripper, stamp + 1000, stamp + 1000)
+        writer.finish()
+
+
 def mcap_json(path: Path, frame: pl.DataFrame) -> None:
     """An MCAP file of JSON messages."""
     import json
