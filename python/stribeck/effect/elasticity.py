@@ -73,11 +73,14 @@ def _where(before: Identified, after: Identified) -> str:
 
 
 def _unresolved(after: Identified) -> str | None:
-    """Central differences, taken twice, add dt^2/3 of the second derivative to an acceleration."""
+    """Differences between samples smooth: taken twice, they lack dt^2/3 of the second derivative.
+
+    A drive train that twists under the inertia of the motor has the other sign.
+    """
     share, period = after.model.value("elasticity"), after.recording.scales()["sample_period"]
-    if abs(share) > period**2:
+    if not -(period**2) <= share < 0.0:
         return None
-    hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
+    hertz = 1.0 / (2.0 * np.pi * np.sqrt(-share))
     return (
         f"the drive train would oscillate at {number(float(hertz))} Hz, and a load torque from "
         f"differences between samples is off by as much"
