@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from stribeck.report.channels import torque_name
 from stribeck.report.layout import joined, paragraph, table
 from stribeck.report.numbers import DASH, listed, minus_signs
 from stribeck.report.style import (
@@ -105,7 +104,7 @@ def tracking_figure(tracking: Tracking) -> Figure:
             bottom.plot(time, motion.compensation[rows], color=colour, lw=1.1, label=motion.name)
     title(top, f"Desired position [{position_unit}]")
     title(middle, f"Tracking error [{position_unit}]")
-    title(bottom, f"Friction and compensation, {torque_name(torque_unit)} [{torque_unit}]")
+    title(bottom, f"Friction and compensation [{torque_unit}]")
     bottom.set_xlabel("time [s]")
     for axes in (top, middle, bottom):
         style(axes)
