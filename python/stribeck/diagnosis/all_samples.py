@@ -59,14 +59,15 @@ def with_remainder_on_all_samples(found: Diagnosis, whole: Fit) -> Diagnosis:
 
 def with_errors_on_all_samples(found: Diagnosis, whole: Fit) -> Diagnosis:
     """A diagnosis of stretches with the errors on all samples, those of `whole`."""
-
-    def on_all(finding: Finding) -> Finding:
-        after = on_all_samples(finding.fit, whole.recording, whole.transient)
-        return with_errors_of(finding, whole, after, found.noise_floor)
-
+    claims = (*found.findings, *found.demoted)
+    fits = [on_all_samples(claim.fit, whole.recording, whole.transient) for claim in claims]
+    floor = noise_floor(fits[0] if found.findings else whole)
+    made = [with_errors_of(c, whole, after, floor) for c, after in zip(claims, fits, strict=True)]
+    count = len(found.findings)
     return replace(
         found,
         fit=with_excerpt_note(whole, found.fit.recording.rows),
-        findings=tuple(map(on_all, found.findings)),
-        demoted=tuple(map(on_all, found.demoted)),
+        noise_floor=floor,
+        findings=tuple(made[:count]),
+        demoted=tuple(made[count:]),
     )

@@ -9,7 +9,10 @@ from typing import TYPE_CHECKING
 from stribeck.base.arguments import door
 from stribeck.base.checks import check_share
 from stribeck.base.errors import FitError
-from stribeck.diagnosis.all_samples import with_errors_on_all_samples
+from stribeck.diagnosis.all_samples import (
+    with_errors_on_all_samples,
+    with_remainder_on_all_samples,
+)
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.residual.explainable import explainable
@@ -108,7 +111,10 @@ def diagnose(
         known(shown)
     rest = _with_remainder(made, evidence)
     whole = rest if brief else with_visibility(rest)
-    return replace(whole, fit=shown.fit, findings=shown.findings, demoted=shown.demoted)
+    said = replace(whole, fit=shown.fit, findings=shown.findings, demoted=shown.demoted)
+    if is_whole:
+        return said
+    return with_remainder_on_all_samples(said, said.findings[0].fit if said.findings else fitted)
 
 
 def _findings(

@@ -186,6 +186,15 @@ def test_an_argument_of_another_name_is_refused(recording: sb.Recording) -> None
         sb.fit("coulomb", recording, fixed={"a1": 9.0})  # type: ignore[call-arg]
 
 
+def test_a_diagnosis_states_the_floor_of_all_samples(recording: sb.Recording) -> None:
+    fitted = sb.fit("coulomb", recording, starts=2)
+    for brief in (True, False):
+        found = sb.diagnose(fitted, sample_rows=recording.rows // 2, brief=brief)
+        best = found.findings[0].fit
+        assert best.recording is recording
+        assert found.noise_floor == noise_floor(best)
+
+
 def test_what_remains_is_that_of_all_samples(recording: sb.Recording) -> None:
     """The models are identified on all samples, and the errors are theirs."""
     found = sb.improve("coulomb", recording, sample_rows=recording.rows // 2, starts=2)
