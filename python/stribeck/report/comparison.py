@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from stribeck.report.channels import torque_name
 from stribeck.report.layout import joined, line_width, notes_text, paragraph, table, width_of
+from stribeck.report.names import model_names
 from stribeck.report.numbers import percent, plain, signed
 from stribeck.report.parameters import effective_text
 from stribeck.report.recording import REGIMES, file_name, held_out_meaning, scored_sentence
@@ -66,7 +67,7 @@ def _overview(comparison: Comparison) -> str:
     heading, *rows = overview_rows(comparison)
     figures = [row[1:] for row in rows]
     columns = range(1, len(heading))
-    names = [a.model for a in models]
+    names = _names(models)
     numbers = [f"[{k}]" for k in range(1, len(models) + 1)]
     shown = table([heading, *_beside(numbers, figures)], right=columns)
     if width_of(shown) + max(map(len, names)) - len(heading[0]) <= line_width():
@@ -87,10 +88,16 @@ def overview_rows(comparison: Comparison) -> list[list[str]]:
     return [
         heading,
         *(
-            [a.model, *_figures(a), *differences, *([_energy_error(a)] if with_energy else [])]
-            for a, differences in zip(models, _differences(models), strict=True)
+            [name, *_figures(a), *differences, *([_energy_error(a)] if with_energy else [])]
+            for name, a, differences in zip(
+                _names(models), models, _differences(models), strict=True
+            )
         ),
     ]
+
+
+def _names(models: Sequence[Assessment]) -> list[str]:
+    return model_names([assessment.fit for assessment in models])
 
 
 def _beside(names: list[str], figures: list[list[str]]) -> list[list[str]]:
@@ -165,7 +172,8 @@ def _regimes_text(comparison: Comparison) -> str:
 def _regimes_block(comparison: Comparison, first: int) -> str:
     """The table of a few models, from the one numbered `first` on."""
     part = comparison.models[first : first + MOST_COLUMNS]
-    tags = [a.model if len(a.model) <= LONGEST else f"[{first + k}]" for k, a in enumerate(part, 1)]
+    names = _names(comparison.models)[first : first + MOST_COLUMNS]
+    tags = [n if len(n) <= LONGEST else f"[{first + k}]" for k, n in enumerate(names, 1)]
     heading = [f"RMSE (mean error) [{comparison.recording.torque_unit}]", "share", *tags]
     rows = [heading]
     for index, regime in enumerate(part[0].regimes):
@@ -176,7 +184,7 @@ def _regimes_block(comparison: Comparison, first: int) -> str:
             cells.append(f"{mark}{plain(g.rmse)} ({signed(g.bias, g.rmse)})")
         rows.append([REGIMES[regime.regime], percent(regime.share), *cells])
     text = table(rows, right=range(1, len(heading)))
-    long = [f"  {tag} {a.model}" for tag, a in zip(tags, part, strict=True) if tag[0] == "["]
+    long = [f"  {tag} {name}" for tag, name in zip(tags, names, strict=True) if tag[0] == "["]
     return "\n".join([text, *long])
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from stribeck.report.layout import joined, paragraph, table
+from stribeck.report.names import numbered
 from stribeck.report.numbers import DASH, listed, minus_signs
 from stribeck.report.style import (
     COLOURS,
@@ -30,7 +31,8 @@ def tracking_text(tracking: Tracking) -> str:
     _, unit = tracking.joint.units
     seconds = tracking.desired_position.size * tracking.step
     rows = [["compensation", "alpha", "from", f"RMSE [{unit}]", f"maximum [{unit}]", "change"]]
-    for motion in tracking.motions:
+    names = numbered([motion.name for motion in tracking.motions])
+    for name, motion in zip(names, tracking.motions, strict=True):
         compensator = motion.compensator
         alpha, source, change = DASH, DASH, DASH
         if compensator is not None:
@@ -38,7 +40,7 @@ def tracking_text(tracking: Tracking) -> str:
             source = "measured" if compensator.feedback else "desired"
             change = minus_signs(f"{-100.0 * tracking.reduction(motion):+.0f} %")
         errors = [f"{motion.rmse:.3g}", f"{motion.largest_error:.3g}"]
-        rows.append([motion.name, alpha, source, *errors, change])
+        rows.append([name, alpha, source, *errors, change])
     observer = ""
     if tracking.observer is not None:
         observer = paragraph(
@@ -58,13 +60,12 @@ def teaching_text(teaching: Teaching) -> str:
     rows = [
         ["compensation", "alpha", f"hand, RMS [{unit}]", f"maximum [{unit}]", "overcompensated"]
     ]
-    for motion in teaching.motions:
+    names = numbered([motion.name for motion in teaching.motions])
+    for name, motion in zip(names, teaching.motions, strict=True):
         alpha = DASH if motion.compensator is None else f"{motion.compensator.factor:5.3f}"
         rms, largest = teaching.interaction(motion)
         share = 100.0 * teaching.overcompensated(motion)
-        rows.append(
-            [motion.name, alpha, f"{rms:.3g}", f"{largest:.3g}", f"{share:.2g} % of the motion"]
-        )
+        rows.append([name, alpha, f"{rms:.3g}", f"{largest:.3g}", f"{share:.2g} % of the motion"])
     return joined(
         f"A hand guides a joint with friction {teaching.friction.spec}:",
         table(rows, right=(1, 2, 3, 4)),
@@ -97,11 +98,12 @@ def tracking_figure(tracking: Tracking) -> Figure:
     # Wide and below: a compensation that equals the friction covers it.
     friction = tracking.motions[-1].friction_torque[rows]
     bottom.plot(time, friction, color=GREY, lw=3.0, label="friction")
+    names = numbered([motion.name for motion in tracking.motions])
     for k, motion in enumerate(tracking.motions):
         colour = COLOURS[k % len(COLOURS)]
-        middle.plot(time, motion.error[rows], color=colour, lw=1.1, label=motion.name)
+        middle.plot(time, motion.error[rows], color=colour, lw=1.1, label=names[k])
         if motion.compensator is not None:
-            bottom.plot(time, motion.compensation[rows], color=colour, lw=1.1, label=motion.name)
+            bottom.plot(time, motion.compensation[rows], color=colour, lw=1.1, label=names[k])
     title(top, f"Desired position [{position_unit}]")
     title(middle, f"Tracking error [{position_unit}]")
     title(bottom, f"Friction and compensation [{torque_unit}]")

@@ -131,6 +131,12 @@ def test_of_two_models_alike_the_stored_one_is_named(fits) -> None:
     figure = sb.plot(fits[0].recording, [fits[0], stored], "residual-velocity")
     named = [text.get_text() for text in figure.legends[0].get_texts()]
     assert named == ["coulomb", "coulomb, not refitted"]
+    other = sb.model("coulomb", coulomb_friction=3.0, viscous_friction=3.0)
+    figure = sb.plot(fits[0].recording, [stored, other], "residual-velocity")
+    named = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert named == ["coulomb, not refitted (1)", "coulomb, not refitted (2)"]
+    text = str(sb.compare([sb.evaluate(m, fits[0].recording) for m in (stored, other)]))
+    assert "coulomb, not refitted (1)" in text and "coulomb, not refitted (2)" in text
 
 
 def test_the_spectrum_is_that_of_the_scored_samples() -> None:

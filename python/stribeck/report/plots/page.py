@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stribeck.base.errors import SpecError, listed
+from stribeck.report.names import model_names
 from stribeck.report.style import COLOURS, MEASURED, new_figure, style
 
 if TYPE_CHECKING:
@@ -111,9 +112,8 @@ class Page:
 
     def name(self, fit: Fit) -> str:
         """Name of a model in the legend; of two alike, which one was not fitted here."""
-        alike = sum(other.model.spec == fit.model.spec for other in self.fits)
-        stored = ", not refitted" if alike > 1 and fit.starts == 0 else ""
-        return f"{short(fit.model.spec)}{stored}"
+        spec, name = fit.model.spec, model_names(self.fits)[list(self.fits).index(fit)]
+        return f"{short(spec)}{name.removeprefix(spec)}"
 
     def line(self, index: int) -> dict[str, object]:
         """Colour, style and width of a model's line."""
