@@ -135,7 +135,8 @@ def test_of_two_models_alike_the_stored_one_is_named(fits) -> None:
     figure = sb.plot(fits[0].recording, [stored, other], "residual-velocity")
     named = [text.get_text() for text in figure.legends[0].get_texts()]
     assert named == ["coulomb, not refitted (1)", "coulomb, not refitted (2)"]
-    text = str(sb.compare([sb.evaluate(m, fits[0].recording) for m in (stored, other)]))
+    recording = fits[0].recording
+    text = str(sb.compare([sb.evaluate(m, recording) for m in (stored, other)], recording))
     assert "coulomb, not refitted (1)" in text and "coulomb, not refitted (2)" in text
 
 
