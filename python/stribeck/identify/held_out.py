@@ -99,10 +99,8 @@ def held_out_prediction(
 
     Returns
     -------
-    prediction : array [n]
-        Of every sample, moving or not, by the model fitted without the sample's block.
-    refits : array [blocks, p]
-        Values of each of these models.
+    Prediction [n] of every sample by the model fitted without its block, and the values
+    [blocks, p] of each of these models.
     """
     block = problem.recording.block
     count = problem.recording.block_count

@@ -192,6 +192,23 @@ def constant(values: ArrayLike, size: int) -> Array:
     return copied
 
 
+def one_each(names: Sequence[str], values: ArrayLike) -> Array:
+    """The values of parameters, array [p].
+
+    Raises
+    ------
+    SpecError
+        There are more or fewer values than parameters.
+    """
+    given = np.asarray(values, dtype=np.float64)
+    if given.shape != (len(names),):
+        raise SpecError(
+            f"the model has {len(names)} parameters, {', '.join(names)}, and an array "
+            f"{list(given.shape)} was given: give a value for each"
+        )
+    return given
+
+
 def finite(result: Array, what: str) -> Array:
     """The result of a call, if all of it is finite.
 

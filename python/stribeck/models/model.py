@@ -20,7 +20,7 @@ from stribeck.base.errors import ModelFileError, SpecError, listed
 from stribeck.base.shown import Shown
 from stribeck.models import evaluate
 from stribeck.models.catalog import check_effect, effect_ids, law_ids, law_row
-from stribeck.models.channels import columns, constant, split_columns
+from stribeck.models.channels import columns, constant, one_each, split_columns
 from stribeck.models.compiled import compiled
 from stribeck.models.drive import ARMATURE, KNOWN, VoltageDrive
 from stribeck.models.fitted import Origin
@@ -209,21 +209,9 @@ class Model(Shown):
         return float(self.values[self.names.index(name)])
 
     def with_values(self, values: ArrayLike) -> Model:
-        """The same model with other values, array [p].
-
-        Raises
-        ------
-        SpecError
-            There are more or fewer values than parameters.
-        """
-        given = np.asarray(values, dtype=float)
-        if given.shape != (len(self.names),):
-            raise SpecError(
-                f"{self.spec} has {len(self.names)} parameters, and an array {list(given.shape)} "
-                f"was given: give a value for each, in the order of `names`"
-            )
+        """The same model with other values, array [p]; `SpecError` for another number of them."""
         made = object.__new__(Model)  # it shares what is compiled
-        vars(made).update(vars(self), _origin=Origin(), values=given)
+        vars(made).update(vars(self), _origin=Origin(), values=one_each(self.names, values))
         made.__post_init__()
         return made
 

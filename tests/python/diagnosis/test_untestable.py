@@ -194,4 +194,4 @@ def test_one_pass_of_the_stroke(tmp_path: Path) -> None:
         acceleration=pl.Series(w**2 * np.cos(w * t)),
     )
     found = answers(tmp_path, once)
-    assert "passed only 2.0 times" in found["position"] and "reversals" in found["presliding"]
+    assert "passed only 2.0 times" in found["position"] and "1 reversal" in found["presliding"]

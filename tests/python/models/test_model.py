@@ -340,7 +340,7 @@ def test_the_spec_that_a_refusal_proposes_is_one() -> None:
 def test_values_of_another_number_are_refused() -> None:
     model = sb.model("coulomb", a1=1.0, a2=2.0)
     for given in ([1.0], [1.0, 2.0, 3.0], 1.0):
-        with pytest.raises(SpecError, match="coulomb has 2 parameters"):
+        with pytest.raises(SpecError, match="the model has 2 parameters"):
             model.with_values(given)
 
 
