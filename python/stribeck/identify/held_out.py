@@ -99,8 +99,8 @@ def held_out_prediction(
 
     Returns
     -------
-    Prediction [n] of every sample by the model fitted without its block, and the values
-    [blocks, p] of each of these models.
+    The prediction of every sample by the model fitted without its block [n], and the values of each
+    of these models [blocks, p].
     """
     block = problem.recording.block
     count = problem.recording.block_count
@@ -117,10 +117,8 @@ def held_out_prediction(
         residual, jacobian = problem.linearise(values, free)
         parts = triangles(problem.weighted(jacobian), problem.weighted(residual), group, count)
     linear = all(p.linear for p in problem.model.parameters)
-    for b in range(count):
+    for b in np.unique(group):
         kept = group != b
-        if kept.all():
-            continue
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
         refits[b] = by.step(values, others)
         if jacobian is not None:
