@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.base.errors import SpecError
+from stribeck.effect.describe import is_drive_train
 from stribeck.effect.registry import of_catalog
 from stribeck.models.model import RIGID_BODY_EFFECTS, Model
 from stribeck.motion.simulate.joint import Joint
@@ -60,7 +61,7 @@ def friction_of(model: Model) -> tuple[Model, tuple[str, ...]]:
     """
     model.known_values()
     plain = model.friction
-    trains = [e for e in plain.effects if of_catalog(e).in_motion == "drive train"]
+    trains = [e for e in plain.effects if is_drive_train(e)]
     if trains:
         raise SpecError(
             f"{plain.spec} has {trains[0]}, which describes recordings and cannot be simulated: "

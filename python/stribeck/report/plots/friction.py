@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import SpecError
 from stribeck.effect.columns import displacement_since_reversal
-from stribeck.effect.registry import of_catalog
+from stribeck.effect.describe import is_drive_train
 from stribeck.models.rigid_body import own_load
 from stribeck.motion.simulate.acting import friction_of
 from stribeck.report.channels import clock, torque_name
@@ -75,7 +75,7 @@ def friction_velocity(page: Page) -> Figure:
 def _curve(fit: Fit) -> tuple[Array, Array] | None:
     """Speeds and steady friction; None where the friction depends on more than the velocity."""
     r = fit.recording
-    trains = [e for e in fit.model.effects if of_catalog(e).in_motion == "drive train"]
+    trains = [e for e in fit.model.effects if is_drive_train(e)]
     if fit.model.drive is not None or trains:
         return None
     friction, left_out = friction_of(fit.model)
