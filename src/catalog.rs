@@ -1,7 +1,7 @@
 //! The laws and effects by id. Their lists are in `src/law/mod.rs` and `src/effect/mod.rs`.
 
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Deflection, Interval, Memory, State, Step};
+use crate::dynamics::{Bristle, Deflection, History, Interval, Memory, State, Step};
 use crate::effect::{self, FrictionEffect};
 use crate::law::{self, FrictionLaw};
 use crate::sample::{Sample, Split};
@@ -196,13 +196,6 @@ macro_rules! effects {
                 self.present == EffectSet::NONE
             }
 
-            /// Whether an effect has a state, separate from that of a bristle.
-            #[cfg(feature = "std")]
-            #[must_use]
-            pub fn have_state(&self) -> bool {
-                self.present.iter().any(EffectId::has_state)
-            }
-
             /// The sample that acts, where the sensors show another one.
             #[inline(always)]
             pub fn acting(&self, sample: &Sample<S::Plain>) -> Sample<S::Plain> {
@@ -231,12 +224,12 @@ macro_rules! effects {
             pub fn apply_over(
                 &self,
                 split: &mut Split<S>,
-                state: &mut State<S>,
+                history: &mut impl History<S>,
                 interval: &Interval<S::Plain>,
                 constants: &Constants<S::Plain>,
             ) {
                 $(if let Some(effect) = &self.$id {
-                    effect.apply_over(split, state, interval, constants);
+                    effect.apply_over(split, history, interval, constants);
                 })+
             }
 

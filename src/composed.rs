@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::catalog::{self, EffectId, EffectSet, Effects, Law, LawId};
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Deflection, Interval, LONG, Memory, State, Step};
+use crate::dynamics::{Bristle, Deflection, History, Interval, LONG, Memory, State, Step};
 use crate::error::ModelError;
 use crate::formula::{Formula, FormulaTerms};
 use crate::sample::{Sample, Split};
@@ -375,22 +375,26 @@ impl<S: Real> Composed<S> {
 
     /// Like [`split`](Self::split), at the end of an interval; steps the states of effects.
     #[inline]
-    fn split_over(&self, state: &mut State<S>, interval: &Interval<S::Plain>) -> Split<S> {
+    pub(crate) fn split_over(
+        &self,
+        history: &mut impl History<S>,
+        interval: &Interval<S::Plain>,
+    ) -> Split<S> {
         let mut split = self.law.split(&interval.sample, &self.constants);
         if let Some(formula) = &self.formula {
             formula.add_to(&mut split, &interval.sample);
         }
-        self.effects.apply_over(&mut split, state, interval, &self.constants);
+        self.effects.apply_over(&mut split, history, interval, &self.constants);
         split
     }
 
     /// Whether several samples can be evaluated in parallel, because the effect of a step does not
-    /// depend on the state: without a state, or with only that of a bristle.
+    /// depend on the state: unless dry friction acts through elements.
     #[cfg(feature = "std")]
     #[must_use]
     pub(crate) fn runs_side_by_side(&self) -> bool {
         let is_bristle = || self.bristle(&Sample::at(S::Plain::zero())).is_some();
-        !self.has_state || (!self.effects.have_state() && is_bristle())
+        matches!(self.memory, Memory::None) || is_bristle()
     }
 
     /// The measured torque in steady sliding, where dry friction acts along `sgn v` (T).
@@ -440,7 +444,7 @@ impl<S: Real> Composed<S> {
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
         let split = if self.has_state {
-            self.split_over(state, interval)
+            self.split_over(&mut state.memories, interval)
         } else {
             self.split_of_acting(&interval.sample)
         };

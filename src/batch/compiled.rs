@@ -11,6 +11,7 @@ use std::vec::Vec;
 use super::Outputs;
 use super::columns::{Channels, Columns, Rows};
 use crate::composed::Spec;
+use crate::dynamics::Interval;
 use crate::graph::{self, Beginning, Inputs, Numbers, Operation, Recorded, Recorder, Schedule};
 use crate::scalar::Real;
 use crate::table::Channel;
@@ -167,41 +168,42 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> (Recorded<'r>, Optio
     let Ok((model, sample)) = graph::model(recorder, spec) else {
         return (Recorded::Known(f64::NAN), None);
     };
-    match model.bristle(&model.acting(&sample)) {
-        Some(bristle) if model.has_state() => {
-            let split = model.split(&sample);
-            let end = split.dry();
-            let mean = purpose.mean_velocity.then(|| column(MEAN_VELOCITY));
-            let velocity = mean.unwrap_or(sample.velocity);
-            let dry = match mean {
-                Some(_) => {
-                    let before = recorder.number(Operation::Previous(recorder.id(end)));
-                    (before + end).scale(Recorded::Known(0.5))
-                }
-                None => end,
-            };
-            let step = if purpose.uniform_step {
-                recorder.number(Operation::Parameter(spec.parameter_count()))
-            } else {
-                column(STEP)
-            };
-            let course = bristle.course(dry, velocity, step);
-            let shift = match mean {
-                Some(_) => bristle.shift(&course, [dry, end], [velocity, sample.velocity]),
-                None => Recorded::Known(0.0),
-            };
-            let settled = if purpose.settles {
-                bristle.target(end, sample.velocity)
-            } else {
-                Recorded::Known(0.0)
-            };
-            let (before, after) = recorder.relax(course.share, course.target, shift, settled);
-            let rate = match mean {
-                Some(_) => bristle.rate(after, end, sample.velocity),
-                None => course.end_rate(before),
-            };
-            (model.measured(bristle.torque(after, rate, &split), &sample), Some(end))
-        }
-        _ => (model.static_torque(&sample), None),
+    if !model.has_state() {
+        return (model.static_torque(&sample), None);
     }
+    let mean_velocity = purpose.mean_velocity.then(|| column(MEAN_VELOCITY));
+    let dt = if purpose.uniform_step {
+        recorder.number(Operation::Parameter(spec.parameter_count()))
+    } else {
+        column(STEP)
+    };
+    let sample = model.acting(&sample);
+    let interval = Interval { sample, mean_velocity, dt, mean: false };
+    let split = model.split_over(&mut &*recorder, &interval);
+    let Some(bristle) = model.bristle(&sample) else {
+        let torque = split.torque(sample.velocity.sign());
+        return (model.measured(torque, &sample), None);
+    };
+    let end = split.dry();
+    let velocity = interval.velocity();
+    let dry = match mean_velocity {
+        Some(_) => {
+            let before = recorder.number(Operation::Previous(recorder.id(end)));
+            (before + end).scale(Recorded::Known(0.5))
+        }
+        None => end,
+    };
+    let course = bristle.course(dry, velocity, dt);
+    let shift = match mean_velocity {
+        Some(_) => bristle.shift(&course, [dry, end], [velocity, sample.velocity]),
+        None => Recorded::Known(0.0),
+    };
+    let settled =
+        if purpose.settles { bristle.target(end, sample.velocity) } else { Recorded::Known(0.0) };
+    let (before, after) = recorder.relax(course.share, course.target, shift, settled);
+    let rate = match mean_velocity {
+        Some(_) => bristle.rate(after, end, sample.velocity),
+        None => course.end_rate(before),
+    };
+    (model.measured(bristle.torque(after, rate, &split), &sample), Some(end))
 }

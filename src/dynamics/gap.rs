@@ -7,6 +7,7 @@
 //! `P (1 - e^-h)/dt` on average over the step.
 
 use super::Interval;
+use super::history::{History, Kept};
 use crate::scalar::{Mask, Real};
 
 /// Parameters of a gap.
@@ -22,72 +23,44 @@ pub struct Gap<S: Real> {
     pub returned: S,
 }
 
-/// State of the gap.
-#[derive(Clone, Copy, Debug)]
-pub struct Flanks<S: Real> {
-    /// Whether there was a step before.
-    pub(super) begun: S::Mask,
-    /// Load torque at the end of the step before (T).
-    pub(super) load: S,
-    /// Whether the load torque has changed its sign; before that the flanks touch.
-    pub(super) parted: S::Mask,
-    /// `w` (X).
-    pub(super) way: S,
-    /// `P` (T s).
-    pub(super) momentum: S,
-}
-
-impl<S: Real> Default for Flanks<S> {
-    fn default() -> Self {
-        let (no, zero) = (S::Mask::of(false), S::zero());
-        Self { begun: no, load: zero, parted: no, way: zero, momentum: zero }
-    }
-}
-
 impl<S: Real> Gap<S> {
     /// The part of the load torque that the gap takes away over `interval` (T).
     #[inline]
-    pub fn step_over(&self, state: &mut Flanks<S>, interval: &Interval<S::Plain>) -> S {
-        let before = *state;
+    pub fn step_over(&self, history: &mut impl History<S>, interval: &Interval<S::Plain>) -> S {
+        let (zero, one) = (S::zero(), S::one());
         let load = S::from_plain(interval.sample.load_torque);
-        let earlier = S::choose(before.begun, before.load, load);
+        // A load torque of 0 has no sign: the one before stays.
+        let [earlier, _] = history.count(Kept::Load, load.at_zero().not(), load, zero);
         let lasts = interval.dt.is_positive();
         let crossed = lasts.and((load * earlier).is_negative());
-        let parted = before.parted.or(crossed);
-        let start = S::choose(crossed, S::zero(), before.way);
+        let [_, parted] = history.count(Kept::GapParted, crossed, one, zero);
+        let parted = parted.at_zero().not();
+        let way = parted.and(lasts).either(|| self.way(interval), || zero);
         // Within the step the load torque changes linearly.
-        let crosses = || self.way(interval) * (load / (load - earlier));
-        let goes_on = || before.way + self.way(interval);
-        let end = parted.and(lasts).either(|| crossed.either(crosses, goes_on), || before.way);
-        let [taken, momentum] = parted.either(
-            || self.taken(load, [start / self.width, end / self.width], before.momentum, interval),
-            || [S::zero(), before.momentum],
+        let crosses = crossed.either(|| way * (load / (load - earlier)), || zero);
+        let [start, end] = history.count(Kept::GapWay, crossed, crosses, way);
+        let start = S::choose(crossed, zero, start);
+        let [left, met, lacking] = parted.either(
+            || self.course(load, [start / self.width, end / self.width], interval),
+            || [zero; 3],
         );
-        // A load torque of 0 has no sign: the one before stays.
-        let signed = S::choose(load.at_zero(), earlier, load);
-        *state = Flanks { begun: S::Mask::of(true), load: signed, parted, way: end, momentum };
-        taken
+        let [momentum, _] = history.relax(Kept::GapMomentum, met, lacking);
+        let made_up =
+            lasts.either(|| (momentum * met).scale(S::Plain::one() / interval.dt), || zero);
+        made_up - left
     }
 
-    /// The part of the load torque taken away (T) and the momentum still missing afterwards (T s),
-    /// for a travel from `start` to `end`, in widths.
+    /// The part of the load torque that is not carried (T), the share of the momentum that is made
+    /// up in the step, and what is added to it (T s), for a travel from `start` to `end`, in widths.
     #[inline]
-    fn taken(
-        &self,
-        load: S,
-        [start, end]: [S; 2],
-        momentum: S,
-        interval: &Interval<S::Plain>,
-    ) -> [S; 2] {
+    fn course(&self, load: S, [start, end]: [S; 2], interval: &Interval<S::Plain>) -> [S; 3] {
         let dt = interval.dt;
         let left = load * (-(end * end)).exp();
         let closes = || {
-            let met = (start * start - end * end).expm1();
-            let made_up = -(momentum * met);
-            let lacking = (left * self.returned).scale(dt) + momentum - made_up;
-            [-left + made_up.scale(S::Plain::one() / dt), lacking]
+            let met = -(start * start - end * end).expm1();
+            [left, met, (left * self.returned).scale(dt)]
         };
-        dt.is_positive().either(closes, || [-left, momentum])
+        dt.is_positive().either(closes, || [left, S::zero(), S::zero()])
     }
 
     /// The travel over which the gap closes in a step (X).

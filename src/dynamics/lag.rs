@@ -1,10 +1,12 @@
 //! A quantity that follows its steady value with a first-order lag, stepped exactly.
 //!
-//! `tau de/dt = E - e`. Over a step with constant `E`, `e` becomes `E + (e - E) exp(-dt/tau)`;
-//! where `E` changes linearly from `E0` to `E1` it becomes
-//! `E1 + (e - E0) exp(-dt/tau) - (E1 - E0) phi_1(-dt/tau)`. Both lie between the values before, so
-//! a lag never makes friction negative.
+//! `tau de/dt = E - e`. The deviation `d = e - E` relaxes to 0: over a step at whose beginning `E`
+//! has changed by `c`, it becomes `(d - c) exp(-dt/tau)`; where `E` changes linearly, it becomes
+//! `d exp(-dt/tau) - c phi_1(-dt/tau)`. Then `e` lies between the values before, so a lag never makes
+//! friction negative. Shares and shifts do not depend on `d`, so they are computed for many samples
+//! in parallel.
 
+use super::history::{History, Kept};
 use super::{Interval, SATURATED};
 use crate::scalar::{Mask, Real};
 
@@ -15,53 +17,39 @@ pub struct Lag<S> {
     pub time: S,
 }
 
-/// State of a lagging quantity.
-#[derive(Clone, Copy, Debug)]
-pub struct Lagging<S: Real> {
-    /// Whether it has a value: it has none before the first step.
-    pub(super) begun: S::Mask,
-    /// `e`.
-    pub(super) value: S,
-    /// `E` at the end of the step before.
-    pub(super) steady: S,
-}
-
-impl<S: Real> Default for Lagging<S> {
-    fn default() -> Self {
-        Self { begun: S::Mask::of(false), value: S::zero(), steady: S::zero() }
-    }
-}
-
 impl<S: Real> Lag<S> {
     /// Steps over `interval`, at whose end the steady value is `steady`; the first step begins
     /// there. Where the interval has a mean velocity, the steady value changes linearly within the
     /// step.
     #[inline]
-    pub fn step_over(&self, state: &mut Lagging<S>, steady: S, interval: &Interval<S::Plain>) -> S {
-        let before = *state;
-        let follows = || {
-            let (decay, late) = self.weights(interval);
-            steady + (before.value - before.steady) * decay - (steady - before.steady) * late
-        };
-        let goes_on = || interval.dt.is_positive().either(follows, || before.value);
-        let value = before.begun.either(goes_on, || steady);
-        *state = Lagging { begun: S::Mask::of(true), value, steady };
-        value
+    pub fn step_over(
+        &self,
+        history: &mut impl History<S>,
+        steady: S,
+        interval: &Interval<S::Plain>,
+    ) -> S {
+        let [before, _] = history.follow(Kept::SteadyCurve, steady);
+        let [share, late] =
+            interval.dt.is_positive().either(|| self.weights(interval), || [S::zero(), S::one()]);
+        let shift = -((steady - before) * late);
+        let [_, deviation] = history.relax(Kept::CurveDeviation, share, shift);
+        steady + deviation
     }
 
-    /// The weights of the earlier deviation and of the change over the step.
+    /// The share of the deviation that is lost in a step, and that of the change that remains.
     #[inline]
-    fn weights(&self, interval: &Interval<S::Plain>) -> (S, S) {
+    fn weights(&self, interval: &Interval<S::Plain>) -> [S; 2] {
         let dt = interval.dt;
+        let linear = interval.mean_velocity.is_some();
         let steps = self.time.scale(S::Plain::one() / dt);
         let forgotten = self.time.plain() * S::Plain::from_f64(SATURATED);
-        let [decay, late] = forgotten.is_above(dt.plain()).either(
+        forgotten.is_above(dt.plain()).either(
             || {
                 let y = self.time.reciprocal_times(-dt);
-                [y.exp(), -(y.expm1() * steps)]
+                let share = -y.expm1();
+                [share, if linear { share * steps } else { y.exp() }]
             },
-            || [S::zero(), steps],
-        );
-        (decay, if interval.mean_velocity.is_some() { late } else { decay })
+            || [S::one(), if linear { steps } else { S::zero() }],
+        )
     }
 }

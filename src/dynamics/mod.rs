@@ -11,6 +11,7 @@ mod deflection;
 mod elastoplastic;
 mod elements;
 mod gap;
+mod history;
 mod lag;
 mod leuven;
 mod maxwell_slip;
@@ -25,8 +26,9 @@ pub use dahl::DahlBristle;
 pub use deflection::{Approach, Deflection};
 pub use elastoplastic::ElastoplasticBristle;
 pub use elements::{Elements, MAX_ELEMENTS};
-pub use gap::{Flanks, Gap};
-pub use lag::{Lag, Lagging};
+pub use gap::Gap;
+pub use history::{History, Kept, Memories};
+pub use lag::Lag;
 pub use leuven::LeuvenBristle;
 pub use maxwell_slip::MaxwellSlip;
 #[cfg(feature = "python")]
@@ -132,10 +134,8 @@ pub struct State<S: Real> {
     pub(crate) bristle: BristleState<S>,
     /// Forces of elements in parallel.
     pub(crate) elements: Elements<S>,
-    /// The lagging Stribeck curve.
-    pub(crate) curve: Lagging<S>,
-    /// The gap of backlash.
-    pub(crate) flanks: Flanks<S>,
+    /// What effects remember.
+    pub(crate) memories: Memories<S>,
     /// Dry magnitude at the end of the step before (T).
     dry: Option<S>,
 }
@@ -148,8 +148,7 @@ impl<S: Real> State<S> {
         Self {
             bristle: BristleState { z },
             elements: Elements::default(),
-            curve: Lagging::default(),
-            flanks: Flanks::default(),
+            memories: Memories::default(),
             dry: None,
         }
     }

@@ -1,6 +1,6 @@
 //! The numbers of a state, by name.
 
-use super::{Flanks, Lagging, State};
+use super::{Kept, State};
 use crate::scalar::{Choice, Mask, Real};
 
 /// One number of a state.
@@ -12,22 +12,10 @@ pub enum Part {
     Force(usize),
     /// Direction in which an element slides.
     Sliding(usize),
-    /// Whether the lagging Stribeck curve has a value.
-    CurveBegun,
-    /// The lagging Stribeck curve.
-    Curve,
-    /// The steady value of the lagging Stribeck curve.
-    SteadyCurve,
-    /// Whether a previous load torque is known.
-    LoadBegun,
-    /// The previous load torque.
-    Load,
-    /// Whether the flanks of the gap have parted.
-    GapParted,
-    /// The travel since they parted.
-    GapWay,
-    /// The momentum that the load has not received.
-    GapMomentum,
+    /// Whether a number that follows has a value.
+    Begun,
+    /// A number that effects keep.
+    Kept(Kept),
 }
 
 impl Part {
@@ -40,14 +28,21 @@ impl Part {
             Self::Sliding(_) => {
                 ("sliding", "1", "Direction in which an element slides; 0 while it sticks.")
             }
-            Self::CurveBegun => ("curve_begun", "1", "1 once the Stribeck curve has a value."),
-            Self::Curve => ("curve", "1", "Stribeck curve that follows the speed late."),
-            Self::SteadyCurve => ("steady_curve", "1", "Stribeck curve at the speed before."),
-            Self::LoadBegun => ("load_begun", "1", "1 once there was a load torque."),
-            Self::Load => ("load_before", "T", "Load torque before, with the last sign it had."),
-            Self::GapParted => ("gap_parted", "1", "1 once the load torque has changed its sign."),
-            Self::GapWay => ("gap_way", "X", "Way since the load torque changed its sign."),
-            Self::GapMomentum => ("gap_momentum", "T s", "Momentum that the load is lacking."),
+            Self::Begun => ("begun", "1", "1 once there was a step."),
+            Self::Kept(kept) => match kept {
+                Kept::CurveDeviation => {
+                    ("curve_deviation", "1", "Lagging Stribeck curve minus its steady value.")
+                }
+                Kept::SteadyCurve => ("steady_curve", "1", "Stribeck curve at the speed before."),
+                Kept::Load => {
+                    ("load_before", "T", "Load torque before, with the last sign it had.")
+                }
+                Kept::GapParted => {
+                    ("gap_parted", "1", "1 once the load torque has changed its sign.")
+                }
+                Kept::GapWay => ("gap_way", "X", "Travel since the load torque changed its sign."),
+                Kept::GapMomentum => ("gap_momentum", "T s", "Momentum that the load is lacking."),
+            },
         }
     }
 
@@ -74,21 +69,12 @@ impl<S: Real> State<S> {
         for (k, sliding) in state.elements.sliding.iter_mut().enumerate() {
             *sliding = change(Part::Sliding(k), S::from_plain(*sliding)).plain();
         }
-        let yes_or_no = |part, mask: S::Mask, change: &mut dyn FnMut(Part, S) -> S| {
-            change(part, S::select(mask, S::one(), S::zero())).at_zero().not()
-        };
-        state.curve = Lagging {
-            begun: yes_or_no(Part::CurveBegun, self.curve.begun, &mut change),
-            value: change(Part::Curve, self.curve.value),
-            steady: change(Part::SteadyCurve, self.curve.steady),
-        };
-        state.flanks = Flanks {
-            begun: yes_or_no(Part::LoadBegun, self.flanks.begun, &mut change),
-            load: change(Part::Load, self.flanks.load),
-            parted: yes_or_no(Part::GapParted, self.flanks.parted, &mut change),
-            way: change(Part::GapWay, self.flanks.way),
-            momentum: change(Part::GapMomentum, self.flanks.momentum),
-        };
+        let begun = S::select(self.memories.begun, S::one(), S::zero());
+        state.memories.begun = change(Part::Begun, begun).at_zero().not();
+        for kept in Kept::ALL {
+            let number = state.memories.number(kept);
+            *number = change(Part::Kept(kept), *number);
+        }
         state
     }
 }

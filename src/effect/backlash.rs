@@ -2,7 +2,7 @@
 
 use super::FrictionEffect;
 use crate::constants::Constants;
-use crate::dynamics::{Gap, Interval, State};
+use crate::dynamics::{Gap, History, Interval};
 use crate::sample::Split;
 use crate::scalar::Real;
 use crate::table::{Channel, EffectInfo, Parameters, parameters};
@@ -51,7 +51,7 @@ impl<S: Real> FrictionEffect<S> for Backlash<S> {
     fn apply_over(
         &self,
         split: &mut Split<S>,
-        state: &mut State<S>,
+        history: &mut impl History<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
     ) {
@@ -61,6 +61,6 @@ impl<S: Real> FrictionEffect<S> for Backlash<S> {
             reference: constants.reference_velocity,
             returned: self.backlash_return,
         };
-        split.additive += gap.step_over(&mut state.flanks, interval);
+        split.additive += gap.step_over(history, interval);
     }
 }

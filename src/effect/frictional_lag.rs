@@ -2,7 +2,7 @@
 
 use super::FrictionEffect;
 use crate::constants::Constants;
-use crate::dynamics::{Interval, Lag, State};
+use crate::dynamics::{History, Interval, Lag};
 use crate::sample::Split;
 use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters, parameters};
@@ -37,12 +37,12 @@ impl<S: Real> FrictionEffect<S> for FrictionalLag<S> {
     fn apply_over(
         &self,
         split: &mut Split<S>,
-        state: &mut State<S>,
+        history: &mut impl History<S>,
         interval: &Interval<S::Plain>,
         _: &Constants<S::Plain>,
     ) {
         let lag = Lag { time: self.frictional_lag };
-        let value = lag.step_over(&mut state.curve, split.shape.value, interval);
+        let value = lag.step_over(history, split.shape.value, interval);
         split.shape = split.shape.with_value(value);
     }
 }

@@ -71,7 +71,7 @@ macro_rules! exported {
 every_effect!(exported);
 
 use crate::constants::Constants;
-use crate::dynamics::{Bristle, Interval, State};
+use crate::dynamics::{Bristle, History, Interval};
 use crate::sample::{Sample, Split};
 use crate::scalar::Real;
 use crate::table::{EffectInfo, Parameters};
@@ -106,7 +106,7 @@ pub trait FrictionEffect<S: Real>: Parameters<S> {
     fn apply_over(
         &self,
         split: &mut Split<S>,
-        _state: &mut State<S>,
+        _history: &mut impl History<S>,
         interval: &Interval<S::Plain>,
         constants: &Constants<S::Plain>,
     ) {

@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use std::vec::Vec;
 
 use super::operation::{Binary, Id, Operation, Relaxing, Start, Unary};
-use super::recorded::{Format, Recorded};
+use super::recorded::{Format, Recorded, RecordedMask};
+use crate::dynamics::{History, Kept};
+use crate::scalar::Real;
 
 /// The operations recorded so far, without duplicates.
 #[derive(Debug, Default)]
@@ -81,6 +83,21 @@ impl Recorder {
         (before, Recorded::Node(self, after))
     }
 
+    /// A state that starts at 0 and relaxes to 0, shifted in each step: before and after a sample.
+    fn relax_to_zero<'r>(&'r self, share: Recorded<'r>, shift: Recorded<'r>) -> [Recorded<'r>; 2] {
+        let zero = self.constant(0.0);
+        let after = self.node(Operation::Relax(Relaxing {
+            share: self.id(share),
+            target: zero,
+            extra: zero,
+            shift: self.id(shift),
+            settled: zero,
+            start: Start::Zero,
+        }));
+        let before = self.number(Operation::Before(after, zero, Start::Zero));
+        [before, Recorded::Node(self, after)]
+    }
+
     /// A unary operation.
     pub fn unary<'r, F>(&'r self, operation: Unary, x: Id) -> Recorded<'r, F> {
         self.number(Operation::Unary(operation, x))
@@ -89,5 +106,31 @@ impl Recorder {
     /// A binary operation.
     pub fn binary<'r, F>(&'r self, operation: Binary, x: Id, y: Id) -> Recorded<'r, F> {
         self.number(Operation::Binary(operation, x, y))
+    }
+}
+
+/// What effects remember, as nodes. A number that restarts loses all of itself, exactly.
+impl<'r> History<Recorded<'r>> for &'r Recorder {
+    fn relax(&mut self, _: Kept, share: Recorded<'r>, shift: Recorded<'r>) -> [Recorded<'r>; 2] {
+        self.relax_to_zero(share, shift)
+    }
+
+    fn count(
+        &mut self,
+        _: Kept,
+        restarts: RecordedMask<'r>,
+        from: Recorded<'r>,
+        by: Recorded<'r>,
+    ) -> [Recorded<'r>; 2] {
+        let share = Recorded::choose(restarts, Recorded::one(), Recorded::zero());
+        self.relax_to_zero(share, Recorded::choose(restarts, from, by))
+    }
+
+    fn follow(&mut self, _: Kept, x: Recorded<'r>) -> [Recorded<'r>; 2] {
+        let before = match x {
+            Recorded::Known(_) => x,
+            Recorded::Node(_, id) => self.number(Operation::Previous(id)),
+        };
+        [before, x]
     }
 }
