@@ -76,10 +76,45 @@ def threads() -> int:
     return worker_count() if multiprocessing.parent_process() is None else 1
 
 
+class _Limit:
+    """The limit of the linear algebra, while at least one caller needs it."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._callers = 0
+        self._limit: threadpool_limits | None = None
+
+    def __enter__(self) -> None:
+        with self._lock:
+            if self._callers == 0:
+                self._limit = threadpool_limits(1, user_api="blas")
+            self._callers += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._callers -= 1
+            if self._callers == 0 and self._limit is not None:
+                self._limit.restore_original_limits()
+
+
+_LIMIT = _Limit()
+
+
+@contextlib.contextmanager
+def serial_linear_algebra() -> Iterator[None]:
+    """Products of matrices use one thread; also usable as a decorator.
+
+    With several threads the bits of a product depend on their number, and between the products the
+    idle threads of OpenBLAS keep a core busy, which threads of our own need.
+    """
+    with _LIMIT:
+        yield
+
+
 @contextlib.contextmanager
 def on_threads() -> Iterator[ThreadPoolExecutor]:
     """Yield a pool of `threads` threads; linear algebra uses one thread in each."""
-    with threadpool_limits(1, user_api="blas"), ThreadPoolExecutor(threads()) as pool:
+    with serial_linear_algebra(), ThreadPoolExecutor(threads()) as pool:
         yield pool
 
 

@@ -41,6 +41,8 @@ def check_surroundings() -> None:
             raise StribeckError(
                 f"the variable {name} is {said!r}: set a whole number from 1 on, or unset it"
             )
+    # Linear algebra runs on one thread, and this way its libraries start no others.
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
     # Figures go to files, so the windows that the user's backend would open play no part.
     os.environ["MPLBACKEND"] = "agg"
 

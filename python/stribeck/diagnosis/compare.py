@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import FitError
+from stribeck.base.pool import serial_linear_algebra
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.residual.regimes import regime_rows
@@ -156,6 +157,7 @@ class Comparison(Plotted):
 
 
 @door(FitError)
+@serial_linear_algebra()
 def compare(
     fits: Sequence[Fit],
     recording: Recordings,

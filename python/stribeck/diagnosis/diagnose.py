@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from stribeck.base.arguments import door
 from stribeck.base.checks import check_share
 from stribeck.base.errors import FitError
+from stribeck.base.pool import serial_linear_algebra
 from stribeck.diagnosis.all_samples import (
     with_errors_on_all_samples,
     with_remainder_on_all_samples,
@@ -46,6 +47,7 @@ NOT_ASKED = Unexplained(None, None, asked=False)
 
 
 @door(FitError, fitted=FIT)
+@serial_linear_algebra()
 def diagnose(
     fitted: Fit,
     recording: Recordings | None = None,

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import FitError, option
+from stribeck.base.pool import serial_linear_algebra
 from stribeck.fitting.exogenous import check_estimator
 from stribeck.fitting.finish import finish
 from stribeck.fitting.instrumented import instrumented
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
 
 @door(FitError, spec=MODEL)
+@serial_linear_algebra()
 def fit(
     spec: str | Model,
     recording: Recordings,

@@ -11,7 +11,7 @@ import polars as pl
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import FitError
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_threads, serial_linear_algebra
 from stribeck.base.shown import Plotted
 from stribeck.diagnosis.all_samples import (
     on_all_samples,
@@ -136,6 +136,7 @@ class Improvement(Plotted):
 
 
 @door(FitError, base=MODEL)
+@serial_linear_algebra()
 def improve(
     base: str | Model,
     recording: Recordings,
