@@ -263,7 +263,12 @@ impl<'a> Columns<'a> {
 
     /// Whether a sample needs no more than its columns: no delay, no loads from a balance.
     pub(super) fn stand_alone(&self, spec: &Spec) -> bool {
-        !spec.effects().contains(EffectId::Delay) && !Balance::is_needed(spec, &self.channels)
+        !spec.effects().contains(EffectId::Delay) && !self.is_balanced(spec)
+    }
+
+    /// Whether loads follow from a balance of torques.
+    pub(super) fn is_balanced(&self, spec: &Spec) -> bool {
+        Balance::is_needed(spec, &self.channels)
     }
 
     /// Checks the columns and prepares the time axis.

@@ -1,33 +1,107 @@
 //! Delay of a series, within each segment.
 
+use core::ops::Range;
 use std::vec::Vec;
 
 use super::columns::Rows;
 
-/// Adds `S(g) - g` to `out`, where `S(g)(t) = g(t - delay)` by linear interpolation, constant
-/// beyond the ends of a segment. `series` and `out` have `width` numbers per sample. Returns the
-/// derivative of the first number with respect to the delay.
-pub fn shift(rows: &Rows, delay: f64, series: &[f64], width: usize, out: &mut [f64]) -> Vec<f64> {
-    let count = rows.count();
-    let mut by_delay = Vec::with_capacity(count);
-    let (steps, starts) = (rows.steps(), rows.starts());
-    let ends = starts.iter().skip(1).map(|&(row, _)| row).chain([count]);
-    for (&(start, _), end) in starts.iter().zip(ends) {
-        let range = start * width..end * width;
-        let segment = Segment { steps: &steps[start..end], series: &series[range.clone()], width };
-        segment.shift(delay, &mut out[range], &mut by_delay);
+/// Where a delayed series is read at each sample, `S(g)(t) = g(t - delay)`: by linear interpolation
+/// between a sample and the next, constant beyond the ends of a segment.
+pub struct Shift {
+    at: Vec<usize>,
+    next: Vec<usize>,
+    /// The share of the way from the one to the other.
+    weight: Vec<f64>,
+    /// The derivative of the delayed series with respect to the delay, at each sample.
+    pub by_delay: Vec<f64>,
+}
+
+impl Shift {
+    /// Of a series whose number at each sample is `series`.
+    pub fn of(rows: &Rows, delay: f64, series: impl Fn(usize) -> f64) -> Self {
+        let count = rows.count();
+        let room = || Vec::with_capacity(count);
+        let mut shift = Self {
+            at: Vec::with_capacity(count),
+            next: Vec::with_capacity(count),
+            weight: room(),
+            by_delay: room(),
+        };
+        let (steps, starts) = (rows.steps(), rows.starts());
+        let ends = starts.iter().skip(1).map(|&(row, _)| row).chain([count]);
+        for (&(start, _), end) in starts.iter().zip(ends) {
+            let segment = Segment { start, steps: &steps[start..end], series: &series };
+            segment.place(delay, &mut shift);
+        }
+        shift
     }
-    by_delay
+
+    /// Adds `S(g) - g` to `out`, for a series `g` and `out` with `width` numbers per sample.
+    pub fn add_each(&self, series: &[f64], width: usize, out: &mut [f64]) {
+        let row = |row: usize| &series[row * width..(row + 1) * width];
+        let places = self.at.iter().zip(&self.next).zip(&self.weight);
+        for ((i, out), ((&at, &next), weight)) in
+            out.chunks_exact_mut(width).enumerate().zip(places)
+        {
+            for (((out, x), here), next) in out.iter_mut().zip(row(i)).zip(row(at)).zip(row(next)) {
+                *out += here + weight * (next - here) - x;
+            }
+        }
+    }
+
+    /// The sample that the first of `rows` is read at, if each of them is read at a later one than
+    /// that before, by one.
+    #[cfg(feature = "identify")]
+    pub fn parallel(&self, rows: &Range<usize>) -> Option<usize> {
+        let first = self.at[rows.start];
+        let mut expected = first..;
+        let pairs = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
+        let in_step =
+            |(&at, &next): (&usize, &usize)| expected.next() == Some(at) && next == at + 1;
+        pairs.into_iter().all(in_step).then_some(first)
+    }
+
+    /// Like [`add_each`](Self::add_each), for some samples of a column; `parallel` is that of these
+    /// samples.
+    #[cfg(feature = "identify")]
+    #[inline(always)]
+    pub fn add(
+        &self,
+        rows: &Range<usize>,
+        parallel: Option<usize>,
+        column: &[f64],
+        out: &mut [f64],
+    ) {
+        let weight = &self.weight[rows.clone()];
+        let own = &column[rows.clone()];
+        if let Some(first) = parallel {
+            let here = &column[first..][..weight.len()];
+            let next = &column[first + 1..][..weight.len()];
+            let pairs = here.iter().zip(next);
+            for (((out, x), weight), (here, next)) in out.iter_mut().zip(own).zip(weight).zip(pairs)
+            {
+                *out += here + weight * (next - here) - x;
+            }
+        } else {
+            let places = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
+            for (((out, x), weight), (&at, &next)) in
+                out.iter_mut().zip(own).zip(weight).zip(places)
+            {
+                let here = column[at];
+                *out += here + weight * (column[next] - here) - x;
+            }
+        }
+    }
 }
 
-struct Segment<'a> {
+struct Segment<'a, F> {
+    start: usize,
     steps: &'a [f64],
-    series: &'a [f64],
-    width: usize,
+    series: &'a F,
 }
 
-impl Segment<'_> {
-    fn shift(&self, delay: f64, out: &mut [f64], by_delay: &mut Vec<f64>) {
+impl<F: Fn(usize) -> f64> Segment<'_, F> {
+    fn place(&self, delay: f64, shift: &mut Shift) {
         let last = self.steps.len() - 1;
         // Times relative to samples k and i: only differences matter, so rounding does not
         // accumulate.
@@ -43,13 +117,10 @@ impl Segment<'_> {
             }
             // `ahead` is now t_i - delay - t_k.
             let inside = ahead > 0.0 && k < last;
-            let weight = if inside { ahead / self.steps[k + 1] } else { 0.0 };
-            let (here, next) = (self.row(k), self.row((k + 1).min(last)));
-            let out = &mut out[i * self.width..(i + 1) * self.width];
-            for (((out, x), here), next) in out.iter_mut().zip(self.row(i)).zip(here).zip(next) {
-                *out += here + weight * (next - here) - x;
-            }
-            by_delay.push(if inside {
+            shift.at.push(self.start + k);
+            shift.next.push(self.start + (k + 1).min(last));
+            shift.weight.push(if inside { ahead / self.steps[k + 1] } else { 0.0 });
+            shift.by_delay.push(if inside {
                 -self.slope(k)
             } else if ahead == 0.0 {
                 // At a sample the interpolation has a kink: the mean of both slopes.
@@ -60,14 +131,11 @@ impl Segment<'_> {
         }
     }
 
-    fn row(&self, row: usize) -> &[f64] {
-        &self.series[row * self.width..(row + 1) * self.width]
-    }
-
     /// Slope between a sample and the next; 0 beyond the ends.
     fn slope(&self, row: usize) -> f64 {
+        let at = |row: usize| (self.series)(self.start + row);
         match self.steps.get(row.wrapping_add(1)) {
-            Some(&dt) if row < self.steps.len() => (self.row(row + 1)[0] - self.row(row)[0]) / dt,
+            Some(&dt) if row < self.steps.len() => (at(row + 1) - at(row)) / dt,
             _ => 0.0,
         }
     }

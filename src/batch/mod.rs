@@ -1,6 +1,8 @@
 //! Models over whole recordings: torque, gradient, parts of the torque.
 
 mod balance;
+#[cfg(feature = "identify")]
+mod blocks;
 mod by_temperature;
 mod columns;
 mod compiled;
@@ -10,27 +12,22 @@ mod normal;
 mod samples;
 mod watch;
 
+#[cfg(feature = "identify")]
+pub(crate) use blocks::blocks;
 pub use columns::{Channels, Columns, TimeStep};
 pub use error::BatchError;
 pub use normal::{NormalEquations, normal_equations};
 
-#[cfg(feature = "identify")]
-use core::ops::Range;
 use std::vec;
 use std::vec::Vec;
 
 use crate::catalog::EffectId;
 use crate::composed::Spec;
-#[cfg(feature = "identify")]
-use crate::graph::Numbers;
 use balance::Balance;
 use columns::Rows;
 use compiled::Compiled;
+use delay::Shift;
 use watch::Watch;
-
-/// Samples per block passed to a sink.
-#[cfg(feature = "identify")]
-const BLOCK_LENGTH: usize = 256;
 
 /// The friction torque of every sample (T); for a model with memory at the end of the sample's
 /// step.
@@ -176,53 +173,6 @@ pub(crate) fn gradient_and_range(
         side_by_side(spec, values, columns, wanted, Locked::Amplified, out)?;
     }
     Ok(columns::finite(slopes))
-}
-
-/// Like [`gradient`], block by block: `sink` receives the torque and each derivative of a block of
-/// samples, and none of them is kept.
-///
-/// # Errors
-/// As for [`gradient`].
-#[cfg(feature = "identify")]
-pub(crate) fn blocks(
-    spec: &Spec,
-    values: &[f64],
-    columns: &Columns<'_>,
-    wanted: &[usize],
-    mut sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
-) -> Result<(), BatchError> {
-    check_wanted(values, wanted)?;
-    if columns.stand_alone(spec) && spec.with(values)?.runs_side_by_side() {
-        let (rows, read) = columns.unchecked_rows(spec)?;
-        let compiled = Compiled::of(spec, wanted, &rows, columns);
-        let mut watch = Watch::new(spec, columns, &read);
-        compiled.each_block(
-            values,
-            &rows,
-            columns.channels,
-            columns,
-            #[inline(always)]
-            |block, outputs| {
-                watch.look(&block);
-                sink(block, outputs);
-            },
-        );
-        return if watch.passed() { Ok(()) } else { columns.check_values(spec, &read) };
-    }
-    let (torque, slopes) = gradient(spec, values, columns, Some(wanted))?;
-    let width = wanted.len();
-    let mut turned = vec![vec![0.0; BLOCK_LENGTH]; width];
-    for (block, torque) in torque.chunks(BLOCK_LENGTH).enumerate() {
-        let rows = block * BLOCK_LENGTH..block * BLOCK_LENGTH + torque.len();
-        for (k, column) in turned.iter_mut().enumerate() {
-            let slopes = slopes[rows.start * width..].iter().skip(k).step_by(width);
-            column.iter_mut().zip(slopes).for_each(|(x, &slope)| *x = slope);
-        }
-        let mut outputs = vec![Numbers::Each(torque)];
-        outputs.extend(turned.iter().map(|column| Numbers::Each(&column[..torque.len()])));
-        sink(rows, &outputs);
-    }
-    Ok(())
 }
 
 fn check_wanted(values: &[f64], wanted: &[usize]) -> Result<(), BatchError> {
@@ -380,12 +330,13 @@ fn measured(
     let both = Outputs { torque: &mut shifted, slopes: &mut shifted_slopes };
     balanced(columns.smoothed(), both)?;
     columns.add_load(&mut shifted);
-    let by_delay = delay::shift(&rows, values[delay], &shifted, 1, torque);
+    let shift = Shift::of(&rows, values[delay], |row| shifted[row]);
+    shift.add_each(&shifted, 1, torque);
     if width > 0 {
-        delay::shift(&rows, values[delay], &shifted_slopes, width, slopes);
+        shift.add_each(&shifted_slopes, width, slopes);
     }
     if let Some(own) = wanted.iter().position(|&index| index == delay) {
-        for (row, slope) in slopes.chunks_exact_mut(width).zip(by_delay) {
+        for (row, slope) in slopes.chunks_exact_mut(width).zip(shift.by_delay) {
             row[own] = slope;
         }
     }
