@@ -255,9 +255,24 @@ fn a_model_is_linearised_without_a_jacobian() {
     let target: Vec<f64> = velocity.iter().map(|v| 2.5 * v.signum() + v).collect();
     let group: Vec<u32> = (0..1000).map(|i| [0, 1, NOT_SCORED][(i / 70) % 3]).collect();
     let moving = vec![true; 1000];
-    for (text, values) in [("lugre", &LUGRE[..]), ("coulomb+delay", &[2.0, 0.5, 0.003][..])] {
+    let smooth: Vec<f64> = velocity.iter().map(|v| 0.9 * v).collect();
+    // Segments, and steps of unequal length.
+    let uneven: Vec<f64> = (0..1000)
+        .map(|i| if [0, 313, 314].contains(&i) { 0.0 } else { 0.001 * f64::from(i % 3 + 1) })
+        .collect();
+    let delayed = [0.003, 0.006, 0.0, -0.0051, 0.2, -3.0].map(|delay| [2.0, 0.5, delay]);
+    let cases = delayed
+        .iter()
+        .flat_map(|values| [("coulomb+delay", &values[..], true), ("coulomb+delay", values, false)])
+        .chain([("lugre", &LUGRE[..], true), ("lugre", &LUGRE, false)]);
+    for (text, values, uniform) in cases {
         let spec = Spec::parse(text).unwrap();
-        let own = problem(&spec, &velocity, &target, &group, &[], &moving);
+        let mut own = problem(&spec, &velocity, &target, &group, &[], &moving);
+        own.columns.smooth.velocity = &smooth;
+        own.columns.channels.load_torque = Some(&target);
+        if !uniform {
+            own.columns.dt = TimeStep::Each(&uneven);
+        }
         let wanted: Vec<usize> = (0..values.len()).rev().collect();
         let slope: Vec<f64> = wanted.iter().map(|&k| 1.0 + k as f64).collect();
         let made = own.triangles(values, &wanted, &slope).unwrap().unwrap();

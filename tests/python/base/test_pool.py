@@ -16,7 +16,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stribeck.base.errors import StribeckError
-from stribeck.base.pool import ONE_THREAD, ProcessPool, Stopped, run_each, threads
+from stribeck.base.pool import (
+    ONE_THREAD,
+    ProcessPool,
+    Stopped,
+    run_each,
+    serial_linear_algebra,
+    threads,
+)
+from threadpoolctl import threadpool_info, threadpool_limits
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="signals and process ids are POSIX")
 
@@ -163,3 +171,38 @@ def test_workers_end_with_their_parent(tmp_path: Path, sent: signal.Signals) -> 
     errors = process.stderr.read()
     assert "Error" not in errors and ("Stopped" in errors) == (sent is signal.SIGINT)
     assert marker.read_text() == "x"
+
+
+def threads_of_linear_algebra() -> set[int]:
+    return {own["num_threads"] for own in threadpool_info() if own["user_api"] == "blas"}
+
+
+def test_linear_algebra_is_serial_until_the_last_caller_leaves():
+    with threadpool_limits(2, user_api="blas"):
+        before = threads_of_linear_algebra()
+        first, second = serial_linear_algebra(), serial_linear_algebra()
+        first.__enter__()
+        second.__enter__()
+        first.__exit__(None, None, None)
+        assert threads_of_linear_algebra() == {1}
+        second.__exit__(None, None, None)
+        assert threads_of_linear_algebra() == before
+
+
+def test_linear_algebra_is_serial_in_a_search(monkeypatch):
+    import stribeck as sb
+    from stribeck.fitting import fit
+    from stribeck.motion.generate.hidden import generate
+
+    recording = sb.read(generate([], seconds=20.0, rate=50.0, seed=1)[0])
+    seen = []
+    real = fit._least_squares
+
+    def watched(*args, **kwargs):
+        seen.append(threads_of_linear_algebra())
+        return real(*args, **kwargs)
+
+    monkeypatch.setattr(fit, "_least_squares", watched)
+    with threadpool_limits(2, user_api="blas"):
+        sb.fit("coulomb", recording, starts=1)
+    assert seen == [{1}]
