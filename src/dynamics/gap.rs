@@ -27,17 +27,17 @@ impl<S: Real> Gap<S> {
     /// The part of the load torque that the gap takes away over `interval` (T).
     #[inline]
     pub fn step_over(&self, history: &mut impl History<S>, interval: &Interval<S::Plain>) -> S {
-        let (zero, one) = (S::zero(), S::one());
+        let zero = S::zero();
         let load = S::from_plain(interval.sample.load_torque);
         // A load torque of 0 has no sign: the one before stays.
-        let [earlier, _] = history.count(Kept::Load, load.at_zero().not(), load, zero);
+        let [earlier, _] = history.hold(Kept::Load, load.at_zero().not(), load);
         let lasts = interval.dt.is_positive();
         let crossed = lasts.and((load * earlier).is_negative());
-        let [_, parted] = history.count(Kept::GapParted, crossed, one, zero);
+        let [_, parted] = history.hold(Kept::GapParted, crossed, S::one());
         let parted = parted.at_zero().not();
         let way = parted.and(lasts).either(|| self.way(interval), || zero);
         // Within the step the load torque changes linearly.
-        let crosses = crossed.either(|| way * (load / (load - earlier)), || zero);
+        let crosses = || way * (load / (load - earlier));
         let [start, end] = history.count(Kept::GapWay, crossed, crosses, way);
         let start = S::choose(crossed, zero, start);
         let [left, met, lacking] = parted.either(

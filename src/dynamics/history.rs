@@ -1,4 +1,5 @@
-//! What effects remember of the steps before: numbers that relax, count, or are those of a step ago.
+//! What effects remember of the steps before: numbers that relax, count or hold a value, or are those
+//! of a step ago.
 //!
 //! An effect says how a step changes a number, and not where it is kept. So its code runs sample by
 //! sample with the numbers of a [`State`](super::State), and records a graph that runs over whole
@@ -43,7 +44,10 @@ pub trait History<S: Real> {
     fn relax(&mut self, kept: Kept, share: S, shift: S) -> [S; 2];
 
     /// `z + by`, or `from` where it restarts.
-    fn count(&mut self, kept: Kept, restarts: S::Mask, from: S, by: S) -> [S; 2];
+    fn count(&mut self, kept: Kept, restarts: S::Mask, from: impl FnOnce() -> S, by: S) -> [S; 2];
+
+    /// `z`, or `x` where it is set.
+    fn hold(&mut self, kept: Kept, sets: S::Mask, x: S) -> [S; 2];
 
     /// `x`; at the first step it was the same before.
     fn follow(&mut self, kept: Kept, x: S) -> [S; 2];
@@ -106,8 +110,13 @@ impl<S: Real> History<S> for Memories<S> {
     }
 
     #[inline(always)]
-    fn count(&mut self, kept: Kept, restarts: S::Mask, from: S, by: S) -> [S; 2] {
-        self.step(kept, |z| S::choose(restarts, from, z + by))
+    fn count(&mut self, kept: Kept, restarts: S::Mask, from: impl FnOnce() -> S, by: S) -> [S; 2] {
+        self.step(kept, |z| restarts.either(from, || z + by))
+    }
+
+    #[inline(always)]
+    fn hold(&mut self, kept: Kept, sets: S::Mask, x: S) -> [S; 2] {
+        self.step(kept, |z| S::choose(sets, x, z))
     }
 
     #[inline(always)]

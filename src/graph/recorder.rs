@@ -7,7 +7,7 @@ use std::vec::Vec;
 use super::operation::{Binary, Id, Operation, Relaxing, Start, Unary};
 use super::recorded::{Format, Recorded, RecordedMask};
 use crate::dynamics::{History, Kept};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// The operations recorded so far, without duplicates.
 #[derive(Debug, Default)]
@@ -119,11 +119,15 @@ impl<'r> History<Recorded<'r>> for &'r Recorder {
         &mut self,
         _: Kept,
         restarts: RecordedMask<'r>,
-        from: Recorded<'r>,
+        from: impl FnOnce() -> Recorded<'r>,
         by: Recorded<'r>,
     ) -> [Recorded<'r>; 2] {
         let share = Recorded::choose(restarts, Recorded::one(), Recorded::zero());
-        self.relax_to_zero(share, Recorded::choose(restarts, from, by))
+        self.relax_to_zero(share, restarts.either(from, || by))
+    }
+
+    fn hold(&mut self, kept: Kept, sets: RecordedMask<'r>, x: Recorded<'r>) -> [Recorded<'r>; 2] {
+        self.count(kept, sets, || x, Recorded::zero())
     }
 
     fn follow(&mut self, _: Kept, x: Recorded<'r>) -> [Recorded<'r>; 2] {
