@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stribeck.base.arguments import door
-from stribeck.base.errors import FitError, option
+from stribeck.base.errors import FitError, SpecError, option
 from stribeck.base.pool import serial_linear_algebra
 from stribeck.fitting.exogenous import check_estimator
 from stribeck.fitting.finish import finish
@@ -124,7 +124,7 @@ def _least_squares(
 ) -> tuple[Fit, Solution]:
     """The fit by least squares within bounds, and its solution."""
     starts, seed, effort = searched
-    marked = rows_left_out(recording) if transient is None else transient
+    marked = rows_left_out(recording) if transient is None else _marks(transient, recording)
     rows = rows_to_fit(made, recording, marked)
     made, load = with_own_load(made, recording, rows, starts, seed, effort)
     solution = solve(made, recording, rows, load, starts, seed, effort)
@@ -141,6 +141,17 @@ def _least_squares(
         made, recording, marked, rows, load, solution, effort, uncertainty, seconds, under=under
     )
     return replace(fitted, notes=(*fitted.notes, *further)), solution
+
+
+def _marks(transient: ArrayLike, recording: Recording) -> NDArray[np.bool_]:
+    """Marks of the caller, one for each sample."""
+    marked = np.asarray(transient)
+    if marked.dtype != np.bool_ or marked.shape != (recording.rows,):
+        raise SpecError(
+            f"`transient` has shape {list(marked.shape)} and type {marked.dtype}: give an array of "
+            f"True and False, one for each of the {recording.rows} samples"
+        )
+    return marked
 
 
 def refined(

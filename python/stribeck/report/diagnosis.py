@@ -148,7 +148,12 @@ def hedged(finding: Finding, word: str | None = None) -> str:
 
 
 def nothing_found(last: Diagnosis, spec: str, *, unexplained: bool) -> str:
-    """That no effect was found, and whether something remains unexplained."""
+    """That no effect was found or added, and whether something remains unexplained."""
+    if last.findings:
+        return (
+            f"No effect was added to the model {spec}, as none may be; what it lacks most is "
+            f"{hedged(last.findings[0])}."
+        )
     if last.trend is not None:
         return (
             f"No effect is claimed to be missing from the model {spec}, but {_changes(last.trend)}."

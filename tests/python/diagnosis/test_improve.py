@@ -104,6 +104,7 @@ def test_a_base_with_the_effects_needs_nothing(
 def test_fewest_steps_and_rejected_effects(recording: sb.Recording) -> None:
     none = sb.improve("coulomb", recording, most_steps=0)
     assert none.steps == () and none.stopped == "max_steps"
+    assert "No effect was added to the model coulomb, as none may be; what it lacks" in str(none)
     without = sb.improve("coulomb", recording, rejected=("load", "stribeck"), most_steps=1)
     assert not {"load", "stribeck"} & {s.finding.effect for s in without.steps}
 

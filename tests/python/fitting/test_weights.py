@@ -132,6 +132,12 @@ def test_a_weight_of_zero_leaves_a_sample_out(
     assert apart(everything, without) > 0.2
 
 
+@pytest.mark.parametrize("marks", [[True, False], np.zeros(3), [0, 1]])
+def test_other_marks_of_a_transient_are_refused(curved: sb.Recording, marks: Any) -> None:
+    with pytest.raises(sb.SpecError, match="give an array of True and False, one for each of the"):
+        sb.fit("coulomb", curved, transient=marks)
+
+
 def apart(one: sb.Fit, other: sb.Fit) -> float:
     """The largest difference of a parameter, in standard errors: not all are well determined."""
     errors = np.array([estimate.stderr for estimate in other.estimates.values()])
