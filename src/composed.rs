@@ -444,7 +444,7 @@ impl<S: Real> Composed<S> {
         interval: &Interval<S::Plain>,
     ) -> Step<S> {
         let split = if self.has_state {
-            self.split_over(&mut state.memories, interval)
+            self.split_over(&mut state.effects, interval)
         } else {
             self.split_of_acting(&interval.sample)
         };

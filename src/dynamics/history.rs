@@ -55,7 +55,7 @@ pub trait History<S: Real> {
 
 /// The numbers of the effects of one model.
 #[derive(Clone, Copy, Debug)]
-pub struct Memories<S: Real> {
+pub struct EffectState<S: Real> {
     /// Whether a number that follows has a value.
     pub(super) begun: S::Mask,
     curve_deviation: S,
@@ -66,7 +66,7 @@ pub struct Memories<S: Real> {
     gap_momentum: S,
 }
 
-impl<S: Real> Default for Memories<S> {
+impl<S: Real> Default for EffectState<S> {
     fn default() -> Self {
         let zero = S::zero();
         Self {
@@ -81,7 +81,7 @@ impl<S: Real> Default for Memories<S> {
     }
 }
 
-impl<S: Real> Memories<S> {
+impl<S: Real> EffectState<S> {
     #[inline(always)]
     pub(super) const fn number(&mut self, kept: Kept) -> &mut S {
         match kept {
@@ -103,7 +103,7 @@ impl<S: Real> Memories<S> {
     }
 }
 
-impl<S: Real> History<S> for Memories<S> {
+impl<S: Real> History<S> for EffectState<S> {
     #[inline(always)]
     fn relax(&mut self, kept: Kept, share: S, shift: S) -> [S; 2] {
         self.step(kept, |z| z + share * -z + shift)

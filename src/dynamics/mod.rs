@@ -3,7 +3,7 @@
 //!
 //! One file per kind of state. A law of [`crate::law`] selects its kind in
 //! [`FrictionLaw::step`](crate::law::FrictionLaw::step); the effect `presliding` adds a bristle to
-//! any static law, and `frictional_lag` and `backlash` have separate states.
+//! any static law, and `frictional_lag` and `backlash` have numbers of their own (`history`).
 
 mod bristle;
 mod dahl;
@@ -27,7 +27,7 @@ pub use deflection::{Approach, Deflection};
 pub use elastoplastic::ElastoplasticBristle;
 pub use elements::{Elements, MAX_ELEMENTS};
 pub use gap::Gap;
-pub use history::{History, Kept, Memories};
+pub use history::{EffectState, History, Kept};
 pub use lag::Lag;
 pub use leuven::LeuvenBristle;
 pub use maxwell_slip::MaxwellSlip;
@@ -135,7 +135,7 @@ pub struct State<S: Real> {
     /// Forces of elements in parallel.
     pub(crate) elements: Elements<S>,
     /// What effects remember.
-    pub(crate) memories: Memories<S>,
+    pub(crate) effects: EffectState<S>,
     /// Dry magnitude at the end of the step before (T).
     dry: Option<S>,
 }
@@ -148,7 +148,7 @@ impl<S: Real> State<S> {
         Self {
             bristle: BristleState { z },
             elements: Elements::default(),
-            memories: Memories::default(),
+            effects: EffectState::default(),
             dry: None,
         }
     }

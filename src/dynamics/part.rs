@@ -69,10 +69,10 @@ impl<S: Real> State<S> {
         for (k, sliding) in state.elements.sliding.iter_mut().enumerate() {
             *sliding = change(Part::Sliding(k), S::from_plain(*sliding)).plain();
         }
-        let begun = S::select(self.memories.begun, S::one(), S::zero());
-        state.memories.begun = change(Part::Begun, begun).at_zero().not();
+        let begun = S::select(self.effects.begun, S::one(), S::zero());
+        state.effects.begun = change(Part::Begun, begun).at_zero().not();
         for kept in Kept::ALL {
-            let number = state.memories.number(kept);
+            let number = state.effects.number(kept);
             *number = change(Part::Kept(kept), *number);
         }
         state

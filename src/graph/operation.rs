@@ -52,7 +52,7 @@ pub struct Relaxing {
 pub enum Start {
     /// The given start.
     Given,
-    /// 0: for derivatives with respect to parameters.
+    /// 0: for states of effects, and for derivatives with respect to parameters.
     Zero,
 }
 
