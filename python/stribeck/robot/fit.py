@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from stribeck.base.errors import FitError, listed, nearest, option
+from stribeck.base.pool import serial_linear_algebra
 from stribeck.fitting.fit import fit
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.models.model import Model
@@ -46,6 +47,7 @@ class InPasses(Protocol):
         ...
 
 
+@serial_linear_algebra()
 def fit_robot(
     motion: RobotMotion | InPasses,
     spec: str = ORDINARY,

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.base.errors import FitError
+from stribeck.base.pool import serial_linear_algebra
 from stribeck.base.shown import Shown
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
 from stribeck.diagnosis.result import Diagnosis, Finding
@@ -118,6 +119,7 @@ class RobotImprovement(Shown):
         }
 
 
+@serial_linear_algebra()
 def improve_robot(
     motion: RobotMotion | InPasses,
     spec: str = ORDINARY,

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError, option
+from stribeck.base.pool import serial_linear_algebra
 from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.testable import untestable
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
@@ -40,6 +41,7 @@ FASTER = 5.0
 
 
 @door(of=WITH_MODEL)
+@serial_linear_algebra()
 def plan(
     of: Fit | ModelFile,
     *,
