@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
+from stribeck.base.errors import SpecError
 from stribeck.base.shown import Shown
 from stribeck.robot.coupled import Turns, mixed
 
@@ -224,6 +225,12 @@ class Robot(Shown):
         self, parameters: Array, gravity: tuple[float, float, float] | None = None
     ) -> Robot:
         """The robot with inertial parameters and rotor inertias [N, 11], and another gravity."""
+        parameters = np.asarray(parameters, dtype=np.float64)
+        if parameters.shape != (len(self.joints), 11):
+            raise SpecError(
+                f"parameters of {self.name} have shape {list(parameters.shape)}: give ten inertial "
+                f"parameters and a rotor inertia for each joint, [{len(self.joints)}, 11]"
+            )
         joints = tuple(
             replace(joint, inertial=np.asarray(row[:10]), rotor=float(row[10]))
             for joint, row in zip(self.joints, parameters, strict=True)
@@ -238,7 +245,7 @@ class Robot(Shown):
         position, velocity, acceleration : arrays [n, N]
             In rad or m, and their derivatives.
         """
-        return self.core.regressor(position, velocity, acceleration)
+        return self.core.regressor(*self._samples(position, velocity, acceleration))
 
     def torque_derivatives(
         self, position: Array, velocity: Array, acceleration: Array
@@ -257,10 +264,9 @@ class Robot(Shown):
         >>> [part.round(3).item() for part in arm.torque_derivatives(still, still, still)]
         [0.0, 0.0, 0.1]
         """
-        by_position, by_velocity = self.core.inverse_dynamics_derivatives(
-            position, velocity, acceleration
-        )
-        return by_position, by_velocity, self.core.mass_matrix(position)
+        samples = self._samples(position, velocity, acceleration)
+        by_position, by_velocity = self.core.inverse_dynamics_derivatives(*samples)
+        return by_position, by_velocity, self.core.mass_matrix(samples[0])
 
     def torque(self, position: Array, velocity: Array, acceleration: Array) -> Array:
         """Torques or forces at the joints for the rigid bodies, [n, N]: recursive Newton-Euler.
@@ -272,4 +278,16 @@ class Robot(Shown):
         >>> arm.torque(np.zeros((1, 1)), np.zeros((1, 1)), np.ones((1, 1)))
         array([[0.]])
         """
-        return self.core.inverse_dynamics(position, velocity, acceleration)
+        return self.core.inverse_dynamics(*self._samples(position, velocity, acceleration))
+
+    def _samples(self, *channels: Array) -> tuple[Array, ...]:
+        """Positions, velocities and accelerations, checked: arrays [n, N]."""
+        given = tuple(np.asarray(channel, dtype=np.float64) for channel in channels)
+        rows = given[0].shape[0] if given[0].ndim else 0
+        for name, channel in zip(("position", "velocity", "acceleration"), given, strict=True):
+            if channel.shape != (rows, len(self.joints)):
+                raise SpecError(
+                    f"`{name}` has shape {list(channel.shape)}: give one row a sample and one "
+                    f"column for each of the {len(self.joints)} joints of {self.name}"
+                )
+        return given
