@@ -223,14 +223,30 @@ def _choice(
     carried = file_unit(column)
     if carried is not None and carried.dimension in dimensions:
         return Choice(channel, column, carried, "suffix")
-    if mapped and carried is not None and len(carried.name) > 1 and column not in CHANNELS:
-        # A mapped column with a unit of another dimension is most likely a mistake.
-        named = option("unit", f"{column}={SI[dimensions[0]].replace(' ', '')}")
-        raise RecordingError(
-            f"{path}: {option('map', f'{channel}={column}')}: the name says {carried.name}, a unit "
-            f"of {carried.dimension}; give the column's unit with {named}, or map another column"
-        )
+    if mapped and column not in CHANNELS:
+        _refuse_other_quantity(path, channel, parsed, carried)
     return Choice(channel, column, None, "name")
+
+
+def _refuse_other_quantity(
+    path: str, channel: str, parsed: ParsedName, carried: Unit | None
+) -> None:
+    """Refuse a mapped column whose name says another quantity: most likely it is a mistake."""
+    dimension = CHANNELS[channel][0]
+    column = parsed.name
+    map_option = option("map", f"{channel}={column}")
+    unit_option = option("unit", f"{column}={SI[dimension].replace(' ', '')}")
+    if parsed.channel == "current" and CHANNELS[channel] == CHANNELS["torque"]:
+        raise RecordingError(
+            f"{path}: {map_option}: the name says a current; map it with "
+            f"{option('map', f'current={column}')} and give {option('torque_constant')}, or, if it "
+            f"is a torque or force, its unit with {unit_option}"
+        )
+    if carried is not None and len(carried.name) > 1:
+        raise RecordingError(
+            f"{path}: {map_option}: the name says {carried.name}, a unit of {carried.dimension}; "
+            f"give the column's unit with {unit_option}, or map another column"
+        )
 
 
 def _wide_sentence(path: str, wide: Mapping[str, Mapping[str, str]]) -> str:

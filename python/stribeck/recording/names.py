@@ -84,7 +84,7 @@ _ALIASES: dict[str, str] = {
         "torque tau effort efforts force motortorque taum tm jointtorque jointeffort "
         "taumeas actualtorque motorforce"
     ),
-    "current": "current i motorcurrent iq actualcurrent jointcurrent",
+    "current": "current cur curr i motorcurrent iq actualcurrent jointcurrent",
     "load_torque": "loadtorque tl tauload load tload loadforce",
     "external_torque": "externaltorque te tauext tauexternal",
     "friction_torque": "frictiontorque tf taufriction tfriction frictionforce friction",

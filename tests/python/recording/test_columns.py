@@ -7,6 +7,7 @@ import math
 import numpy as np
 import polars as pl
 import pytest
+import stribeck as sb
 from stribeck.base.errors import RecordingError
 from stribeck.base.units import parse_unit
 from stribeck.recording.columns import parse_name
@@ -276,3 +277,14 @@ def test_scan(write, frame):
     with pytest.raises(RecordingError, match="no joint column to find '3' in"):
         read(write(frame), joint="3")
     assert "no torque column" in scan(write(frame.drop("torque"))).problem
+
+
+@pytest.mark.parametrize("name", ["current_A", "cur_A", "motor_current", "curr_act_A"])
+def test_a_current_is_not_read_as_a_torque(name: str) -> None:
+    t = np.arange(2000) / 100.0
+    frame = pl.DataFrame({"time": t, "velocity": np.sin(t), name: np.sign(np.sin(t))})
+    with pytest.raises(sb.RecordingError, match="the name says a current; map it with"):
+        sb.read(frame, map=[f"torque={name}"])
+    stated = sb.read(frame, map=[f"torque={name}"], unit=[f"{name}=Nm"])
+    by_constant = sb.read(frame, torque_constant=2.0)
+    assert by_constant.torque == pytest.approx(2.0 * stated.torque)
