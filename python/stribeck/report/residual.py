@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.report.channels import Channel, channel, clock
+from stribeck.report.names import model_names
 from stribeck.report.numbers import plain
 from stribeck.report.style import (
     COLOURS,
@@ -89,9 +90,9 @@ def _legend(figure: Figure, fits: Sequence[Fit]) -> None:
             [],
             color=COLOURS[k % len(COLOURS)],
             linewidth=2.5,
-            label=f"{fit.model.spec}  (RMSE {plain(fit.rmse)} {fit.model.torque_unit})",
+            label=f"{name}  (RMSE {plain(fit.rmse)} {fit.model.torque_unit})",
         )
-        for k, fit in enumerate(fits)
+        for k, (name, fit) in enumerate(zip(model_names(fits), fits, strict=True))
     ]
     if np.count_nonzero(fits[0].recording.moving) >= FEWEST_FOR_MEDIAN:
         grey = "#555555"

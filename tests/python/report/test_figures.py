@@ -42,6 +42,12 @@ def test_every_axis_has_its_unit(improvement: sb.Improvement, steady: sb.Fit) ->
             assert "[" in axes.get_ylabel() or axes.get_yticklabels(), name
 
 
+def test_models_of_one_spec_are_told_apart(improvement: sb.Improvement) -> None:
+    (legend,) = residual_figure([improvement.base, improvement.base]).legends
+    labels = [text.get_text() for text in legend.get_texts()]
+    assert [label.split("  ")[0] for label in labels[:2]] == ["coulomb (1)", "coulomb (2)"]
+
+
 @pytest.mark.slow
 def test_legends_do_not_lie_over_the_data(improvement: sb.Improvement, steady: sb.Fit) -> None:
     for name, figure in drawn(improvement, steady).items():
