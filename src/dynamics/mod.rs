@@ -27,7 +27,9 @@ pub use deflection::{Approach, Deflection};
 pub use elastoplastic::ElastoplasticBristle;
 pub use elements::{Elements, MAX_ELEMENTS};
 pub use gap::Gap;
-pub use history::{EffectState, History, Kept};
+#[cfg(feature = "std")]
+pub use history::Kept;
+pub use history::{EffectState, History};
 pub use lag::Lag;
 pub use leuven::LeuvenBristle;
 pub use maxwell_slip::MaxwellSlip;
