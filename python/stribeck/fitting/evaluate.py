@@ -106,7 +106,8 @@ def evaluated_on(fitted: Fit, recordings: Iterable[Recording]) -> Fit:
 
 
 def evaluated(model: Model, recording: Recording) -> Evaluated:
-    """The error of a model on a recording."""
+    """The error of a model on a recording of the same kind of joint."""
+    refuse_other_joint(model, recording)
     judged = evaluate(model, recording)
     rows = int(recording.moving.sum())
     return Evaluated(recording.path, rows, judged.rmse, judged.relative_residual)

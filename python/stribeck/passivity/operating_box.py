@@ -65,8 +65,7 @@ def operating_box(friction: Model, given: Box) -> dict[str, tuple[float, float]]
     SpecError
         A side that is missing, unknown or not finite, or with its higher end first.
     """
-    for name, side in given.items():
-        _check_side(name, *side)
+    check_sides(given)
     constants = friction.core.constants
     known = dict(friction.box)
     if "duration" in constants:
@@ -83,11 +82,16 @@ def operating_box(friction: Model, given: Box) -> dict[str, tuple[float, float]]
                 f"give {option('box', f'{name}=LOW:HIGH')}"
             )
     box = {name: (float(known[name][0]), float(known[name][1])) for name in needs}
-    for name, side in box.items():
-        _check_side(name, *side)
+    check_sides(box)
     if box["velocity"] == (0.0, 0.0):
         raise SpecError("the box holds no motion: give velocity a range, as in velocity=-1:1")
     return box
+
+
+def check_sides(box: Box) -> None:
+    """Raise `SpecError` for a side that is unknown or not finite, or has its higher end first."""
+    for name, (low, high) in box.items():
+        _check_side(name, low, high)
 
 
 def _check_side(name: str, low: float, high: float) -> None:

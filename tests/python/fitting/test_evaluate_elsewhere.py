@@ -1,0 +1,23 @@
+"""The error of a fit on a recording of another kind of joint."""
+
+from __future__ import annotations
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+from stribeck.fitting.evaluate import evaluated_on
+
+
+def test_another_kind_of_joint_is_refused() -> None:
+    t = np.arange(3000) / 100.0
+    torque = np.sign(np.cos(t)) + np.random.default_rng(0).normal(0.0, 0.05, t.size)
+    linear, turning = (
+        sb.read(
+            pl.DataFrame({"time": t, f"q_{unit}": np.sin(t), f"v_{unit}ps": np.cos(t), tau: torque})
+        )
+        for unit, tau in (("m", "force_N"), ("rad", "torque_Nm"))
+    )
+    fitted = sb.fit("coulomb", linear, starts=1)
+    with pytest.raises(sb.FitError, match="it is a model of another kind of joint"):
+        evaluated_on(fitted, [turning])
