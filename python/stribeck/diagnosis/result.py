@@ -34,7 +34,8 @@ class Finding(Plotted):
         the held-out errors.
     part
         What it explains of the squared error that it and the structure left unexplained make up
-        together, 0..1; known at the end of `improve`.
+        together, 0..1; known at the end of `improve`. Limited where more structure remains than it
+        explains.
     where
         One sentence: where the data shows it.
     fit, before

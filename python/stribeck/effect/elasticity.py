@@ -68,7 +68,19 @@ def _where(before: Identified, after: Identified) -> str:
     hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
     return (
         f"the residual follows the second derivative of the load torque, as if the inertia of the "
-        f"{side} oscillated on the drive train at {number(float(hertz))} Hz"
+        f"{side} oscillated on the drive train at {number(float(hertz))} Hz{_smoothed(share)}"
+    )
+
+
+def _smoothed(share: float) -> str:
+    """The smoothing of the load torque that looks the same, as a clause; none takes this sign.
+
+    A moving average over the time T takes T^2/24 of the second derivative away.
+    """
+    if share >= 0.0:
+        return ""
+    return (
+        f"; a load torque averaged over {number(float(np.sqrt(-24.0 * share)), 2)} s does the same"
     )
 
 

@@ -210,6 +210,8 @@ def finding_text(finding: Finding, number: int | None = None) -> str:
             5,
         ),
     ]
+    if finding.part < min(finding.weight, finding.certainty):
+        parts.append(paragraph("The structure that remains limits this confidence.", 5))
     if finding.indistinguishable_from:
         parts.append(paragraph(indistinguishable_sentence(finding), 5))
     return "\n".join(parts)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.loop.remainder import (
+    BESIDE_STRUCTURE,
     LEAST_PART,
     REASON,
     part_explained,
@@ -36,7 +37,16 @@ def load_dependence(share: float) -> Array:
     [(0.3, 0.3, 0.5), (3.0, 1.0, 0.75), (0.0, 0.2, 0.0), (-0.1, 0.2, 0.0), (None, 0.9, 1.0)],
 )
 def test_the_part_is_a_share_of_both(gain: float | None, unknown: float, part: float) -> None:
-    assert part_explained(gain, unknown) == part
+    assert part_explained(gain, unknown, Unexplained(unknown, "everywhere", unknown)) == part
+
+
+def test_more_structure_than_is_explained_limits_the_part() -> None:
+    """Even where nothing shows what the structure depends on."""
+    remains = Unexplained(0.8, "everywhere")
+    assert part_explained(0.5, 0.0, remains) == BESIDE_STRUCTURE
+    assert part_explained(0.9, 0.0, remains) == 1.0
+    assert part_explained(0.01, 0.0, Unexplained(0.05, None)) == 1.0
+    assert part_explained(0.01, 0.0, Unexplained(None, None)) == 1.0
 
 
 @pytest.fixture(scope="module")
@@ -89,6 +99,7 @@ def test_what_explains_hardly_more_than_what_remains_is_not_certain(tmp_path: Pa
     assert step.finding.effect == "load"
     assert LEAST_PART < step.finding.confidence == step.finding.part < 0.8
     assert step.finding.weight > 0.99
+    assert "The structure that remains limits this confidence." in str(found)
 
 
 def test_without_structure_nothing_changes(tmp_path: Path) -> None:

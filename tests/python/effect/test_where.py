@@ -45,3 +45,14 @@ def test_bristles_bend_further_under_load(spec: str, distance: float) -> None:
     load = {"load_coulomb": 0.25, "load_exponent": 1.0} if "load" in spec else {}
     after = with_values(spec, **values, **load)
     assert f"over about {distance} rad" in where("presliding", after, after)
+
+
+@pytest.mark.parametrize(("share", "said"), [(-(0.09**2) / 24.0, True), (1e-3, False)])
+def test_a_load_torque_that_was_smoothed_does_the_same_as_elasticity(
+    share: float, said: bool
+) -> None:
+    """A moving average over 0.09 s takes away that part of the second derivative."""
+    after = with_values("elasticity", elasticity=share)
+    assert (
+        "a load torque averaged over 0.09 s does the same" in where("elasticity", after, after)
+    ) is said

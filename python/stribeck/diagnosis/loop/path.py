@@ -180,7 +180,7 @@ class ImprovementPath:
         for step in self.steps:
             effect = step.finding.effect
             certainty = found.certainty.get(effect, step.finding.certainty)
-            part = part_explained(found.gain.get(effect), unknown)
+            part = part_explained(found.gain.get(effect), unknown, self.last.unexplained)
             finding = replace(step.finding, certainty=certainty, part=part)
             steps.append(replace(step, finding=finding))
         return replace(self, steps=tuple(steps))

@@ -17,10 +17,13 @@ from stribeck.diagnosis.measurement.table import measurement_columns
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import held_out_square
-from stribeck.diagnosis.trials.imitations import beside_causes
+from stribeck.diagnosis.trials.imitations import NARROW, beside_causes
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
 
+#: The highest confidence of an effect that explains less than the structure which remains, whether
+#: or not a cause of that can be shown: the data are not understood.
+BESIDE_STRUCTURE = NARROW
 #: A friction effect with a smaller part is demoted: it explains less than what remains.
 LEAST_PART = 0.5
 REASON = (
@@ -45,8 +48,10 @@ def unknown_structure(current: Fit, remains: Unexplained) -> float:
     return max(remains.shown - max(1.0 - left, 0.0), 0.0)
 
 
-def part_explained(gain: float | None, unknown: float) -> float:
+def part_explained(gain: float | None, unknown: float, remains: Unexplained) -> float:
     """The share that an effect explains of what it and the unknown structure make up, 0..1.
+
+    At most `BESIDE_STRUCTURE` where more structure remains than it explains.
 
     Parameters
     ----------
@@ -56,9 +61,12 @@ def part_explained(gain: float | None, unknown: float) -> float:
     unknown
         `unknown_structure`, of the same error.
     """
-    if gain is None or unknown <= 0.0:
+    if gain is None:
         return 1.0
-    return max(gain, 0.0) / (max(gain, 0.0) + unknown)
+    gain = max(gain, 0.0)
+    part = gain / (gain + unknown) if unknown > 0.0 else 1.0
+    is_smaller = remains.is_structure and gain < (remains.share or 0.0)
+    return min(part, BESIDE_STRUCTURE) if is_smaller else part
 
 
 def imitations(findings: Sequence[Finding]) -> list[str]:
