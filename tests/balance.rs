@@ -2,9 +2,7 @@
 //! `tm = tl + tf(te, tm, v)`.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::{Motion, close, motion};
+use crate::common::{Motion, close, motion};
 use stribeck::Spec;
 use stribeck::batch::{self, BatchError, Channels, Columns};
 

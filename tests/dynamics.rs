@@ -1,9 +1,7 @@
 //! Properties of all laws with memory, for any stiffness and any step.
 #![allow(clippy::disallowed_methods)]
 
-mod common;
-
-use common::close;
+use crate::common::close;
 use stribeck::{Composed, Interval, Memory, Sample, Spec, State};
 
 /// Dry friction of the test models at rest (T): no elastic torque exceeds it.

@@ -1,9 +1,7 @@
 //! Effects with a state: against their equations in small steps, and their properties.
 #![allow(clippy::disallowed_methods)]
 
-mod common;
-
-use common::close;
+use crate::common::close;
 use stribeck::{Composed, Interval, Sample, Spec, State};
 
 /// Viscous and Coulomb friction, Stribeck curve.

@@ -1,8 +1,6 @@
 //! Friction feedforward: missing, invalid and first readings.
 
-mod common;
-
-use common::random::cases;
+use crate::common::random::cases;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use stribeck::law::Lugre;

@@ -1,9 +1,7 @@
 //! A law selected at compile time has the bits of the same law from the catalog.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::{motion, values};
+use crate::common::{motion, values};
 use stribeck::catalog::LawId;
 use stribeck::law;
 use stribeck::{Constants, FixedLaw, ModelError, Sample, Spec, State};

@@ -4,9 +4,7 @@
 // Values with all digits printed by mpmath; a 3.14 among them is not an approximation of pi.
 #![allow(clippy::excessive_precision, clippy::approx_constant)]
 
-mod common;
-
-use common::close;
+use crate::common::close;
 use stribeck::{Interval, Real, Sample, Spec, State};
 
 fn at(law: &str, effects: &[&str], values: &[f64], sample: &Sample<f64>) -> f64 {

@@ -1,15 +1,13 @@
 //! Gradients against central differences, and values that must stay finite.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::{every_model, motion, values};
+use crate::common::{self, every_model, motion, values};
 use stribeck::batch::{self, BatchError, TimeStep};
 use stribeck::{Dual, Real, Spec};
 
 #[test]
 fn gradient_is_the_derivative_of_every_model() {
-    let motion = motion(250);
+    let motion = motion(120);
     let mut smooth = motion.columns();
     smooth.smooth.velocity = &motion.acceleration;
     smooth.smooth.load_torque = Some(&motion.temperature);
@@ -173,7 +171,7 @@ fn split_adds_up_to_the_static_torque() {
 /// Equal bits, so that a fit may omit parameters without changing its path.
 #[test]
 fn selected_columns_equal_those_of_the_full_gradient() {
-    let motion = motion(130);
+    let motion = motion(80);
     let columns = motion.columns();
     let mut specs = every_model();
     for both in [["delay", "presliding"], ["delay", "load"]] {

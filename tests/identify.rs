@@ -2,12 +2,10 @@
 #![cfg(feature = "identify")]
 #![allow(clippy::disallowed_methods)]
 
-mod common;
-
 use std::cell::Cell;
 
-use common::close;
-use common::random::hold;
+use crate::common::close;
+use crate::common::random::hold;
 use proptest::collection::vec;
 use proptest::prop_assert;
 use stribeck::Spec;

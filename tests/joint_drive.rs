@@ -1,8 +1,6 @@
 //! Ball screw, trajectories and controller.
 
-mod common;
-
-use common::close;
+use crate::common::close;
 use stribeck::joint::{
     BallScrew, Controller, Effort, Fourier, HARMONICS, Profile, Reference, Stroke, Trajectory,
 };

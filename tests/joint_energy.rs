@@ -1,7 +1,6 @@
 //! The energy balance of motor, environment, joint and friction.
 
-mod common;
-
+use crate::common;
 use stribeck::joint::{self, Joint, Posture, Push};
 use stribeck::{Sample, Scalar, Spec, State};
 

@@ -1,8 +1,6 @@
 //! A step terminates and gives finite numbers for any input.
 
-mod common;
-
-use common::random::{hold, spread};
+use crate::common::{self, random::hold, random::spread};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use stribeck::joint::{self, ElasticJoint, ElasticPosture, Joint, Posture, Push, Transmission};

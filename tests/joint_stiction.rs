@@ -1,7 +1,6 @@
 //! A joint at rest stays at rest: no creep, no chatter, no self-excitation.
 
-mod common;
-
+use crate::common;
 use stribeck::catalog::LawId;
 use stribeck::joint::{self, Joint, JointStep, Posture, Push};
 use stribeck::{Composed, Memory, Sample, Spec, State};

@@ -1,8 +1,6 @@
 //! Combinations of laws and effects, and errors.
 
-mod common;
-
-use common::every_model;
+use crate::common::{self, every_model};
 use stribeck::catalog::ParameterInfo;
 use stribeck::catalog::{EffectId, LawId};
 use stribeck::{Dual, ModelError, Sample, Spec, State};

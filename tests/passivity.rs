@@ -3,11 +3,10 @@
 
 #![cfg(feature = "std")]
 
-mod common;
-
 use std::cell::Cell;
 
-use common::random::{cases, hold, runner};
+use crate::common;
+use crate::common::random::{cases, hold, runner};
 use proptest::array::uniform2;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -122,7 +121,7 @@ fn no_sample_contradicts_a_certificate() {
         match found.passive {
             Some(true) => {
                 proved += 1;
-                hold(4_000, &point(&sides), |point| {
+                hold(1_000, &point(&sides), |point| {
                     let split = model.split(&point);
                     let along = if model.has_state() {
                         split.dry() + (split.rate + split.additive) * point.velocity.sign()
@@ -155,7 +154,7 @@ fn static_laws_with_any_parameters_are_decided() {
             continue;
         }
         let usual = common::values(&spec);
-        hold(20, &vec(-0.5..1.5, usual.len()), |scales| {
+        hold(10, &vec(-0.5..1.5, usual.len()), |scales| {
             let values: Vec<_> = usual.iter().zip(scales).map(|(x, scale)| x * scale).collect();
             let Ok(model) = spec.with(&values[..]) else { return Ok(()) };
             let found = check(&spec, &values, &sides, BUDGET / 10).unwrap();
@@ -240,7 +239,7 @@ fn property_1_is_sufficient_and_needlessly_strict() {
 }
 
 proptest! {
-    #![proptest_config(cases(200))]
+    #![proptest_config(cases(80))]
 
     /// Barabanov and Ortega's `s2 > s1 (Fs - Fc)/Fc` is sufficient over any box.
     #[test]

@@ -1,9 +1,7 @@
 //! Blocks of samples have the bits of evaluation sample by sample.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::{every_model, motion, values};
+use crate::common::{every_model, motion, values};
 use stribeck::batch::{self, TimeStep};
 use stribeck::{Interval, State};
 

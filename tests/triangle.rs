@@ -1,9 +1,7 @@
 //! Triangular factors of least-squares problems.
 #![cfg(feature = "identify")]
 
-mod common;
-
-use common::close;
+use crate::common::close;
 use stribeck::identify::triangles;
 
 /// Sum of products of two columns of `R`.

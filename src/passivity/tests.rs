@@ -57,7 +57,7 @@ fn quantities(
 fn contains_its_points(spec: &Spec, values: &[f64]) {
     let numbers: Vec<_> = values.iter().map(|&x| Enclosure::point(x)).collect();
     let (bounded, exact) = (spec.with(&numbers).unwrap(), spec.with(values).unwrap());
-    hold(40, &proptest::array::uniform10(side()), |ends| {
+    hold(20, &proptest::array::uniform10(side()), |ends| {
         let sides: Vec<_> = Channel::ALL
             .into_iter()
             .zip(ends)
