@@ -20,12 +20,11 @@ impl Shift {
     /// Of a series whose number at each sample is `series`.
     pub fn of(rows: &Rows, delay: f64, series: impl Fn(usize) -> f64) -> Self {
         let count = rows.count();
-        let room = || Vec::with_capacity(count);
         let mut shift = Self {
             at: Vec::with_capacity(count),
             next: Vec::with_capacity(count),
-            weight: room(),
-            by_delay: room(),
+            weight: Vec::with_capacity(count),
+            by_delay: Vec::with_capacity(count),
         };
         let (steps, starts) = (rows.steps(), rows.starts());
         let ends = starts.iter().skip(1).map(|&(row, _)| row).chain([count]);
@@ -40,11 +39,12 @@ impl Shift {
     pub fn add_each(&self, series: &[f64], width: usize, out: &mut [f64]) {
         let row = |row: usize| &series[row * width..(row + 1) * width];
         let places = self.at.iter().zip(&self.next).zip(&self.weight);
-        for ((i, out), ((&at, &next), weight)) in
+        for ((i, out), ((&at, &next), &weight)) in
             out.chunks_exact_mut(width).enumerate().zip(places)
         {
-            for (((out, x), here), next) in out.iter_mut().zip(row(i)).zip(row(at)).zip(row(next)) {
-                *out += here + weight * (next - here) - x;
+            let ends = row(at).iter().zip(row(next));
+            for ((out, &x), (&here, &next)) in out.iter_mut().zip(row(i)).zip(ends) {
+                *out += between(here, next, weight) - x;
             }
         }
     }
@@ -55,10 +55,8 @@ impl Shift {
     pub fn parallel(&self, rows: &Range<usize>) -> Option<usize> {
         let first = self.at[rows.start];
         let mut expected = first..;
-        let pairs = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
-        let in_step =
-            |(&at, &next): (&usize, &usize)| expected.next() == Some(at) && next == at + 1;
-        pairs.into_iter().all(in_step).then_some(first)
+        let mut places = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
+        places.all(|(&at, &next)| expected.next() == Some(at) && next == at + 1).then_some(first)
     }
 
     /// Like [`add_each`](Self::add_each), for some samples of a column; `parallel` is that of these
@@ -73,25 +71,26 @@ impl Shift {
         out: &mut [f64],
     ) {
         let weight = &self.weight[rows.clone()];
-        let own = &column[rows.clone()];
+        let own = out.iter_mut().zip(&column[rows.clone()]).zip(weight);
         if let Some(first) = parallel {
             let here = &column[first..][..weight.len()];
             let next = &column[first + 1..][..weight.len()];
-            let pairs = here.iter().zip(next);
-            for (((out, x), weight), (here, next)) in out.iter_mut().zip(own).zip(weight).zip(pairs)
-            {
-                *out += here + weight * (next - here) - x;
+            for (((out, x), &weight), (&here, &next)) in own.zip(here.iter().zip(next)) {
+                *out += between(here, next, weight) - x;
             }
         } else {
             let places = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
-            for (((out, x), weight), (&at, &next)) in
-                out.iter_mut().zip(own).zip(weight).zip(places)
-            {
-                let here = column[at];
-                *out += here + weight * (column[next] - here) - x;
+            for (((out, x), &weight), (&at, &next)) in own.zip(places) {
+                *out += between(column[at], column[next], weight) - x;
             }
         }
     }
+}
+
+/// The number at this share of the way between two.
+#[inline(always)]
+fn between(here: f64, next: f64, weight: f64) -> f64 {
+    here + weight * (next - here)
 }
 
 struct Segment<'a, F> {
