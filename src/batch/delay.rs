@@ -1,9 +1,36 @@
-//! Delay of a series, within each segment.
+//! Delay of a torque, within each segment.
 
 use core::ops::Range;
 use std::vec::Vec;
 
-use super::columns::Rows;
+use super::columns::{Columns, Rows};
+use super::first_parameter;
+use crate::catalog::EffectId;
+use crate::composed::Spec;
+
+/// The delay of a model. Its torque and the derivatives are evaluated twice: `f` from the channels
+/// as recorded and `g` from the smoothed ones; `f + S(g) - g` is delayed.
+pub struct Delay {
+    seconds: f64,
+    /// The place of its derivative among those that are wanted.
+    pub own: Option<usize>,
+}
+
+impl Delay {
+    /// Of a model that has one.
+    pub fn of(spec: &Spec, values: &[f64], wanted: &[usize]) -> Option<Self> {
+        let parameter = first_parameter(spec, EffectId::Delay)?;
+        let own = wanted.iter().position(|&index| index == parameter);
+        Some(Self { seconds: values[parameter], own })
+    }
+
+    /// The shift of the torque from the smoothed channels, to which the load is added where it is
+    /// delayed too.
+    pub fn shift(&self, rows: &Rows, columns: &Columns<'_>, torque: &mut [f64]) -> Shift {
+        columns.add_load(torque);
+        Shift::of(rows, self.seconds, torque)
+    }
+}
 
 /// Where a delayed series is read at each sample, `S(g)(t) = g(t - delay)`: by linear interpolation
 /// between a sample and the next, constant beyond the ends of a segment.
@@ -17,8 +44,7 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// Of a series whose number at each sample is `series`.
-    pub fn of(rows: &Rows, delay: f64, series: impl Fn(usize) -> f64) -> Self {
+    fn of(rows: &Rows, delay: f64, series: &[f64]) -> Self {
         let count = rows.count();
         let mut shift = Self {
             at: Vec::with_capacity(count),
@@ -29,7 +55,8 @@ impl Shift {
         let (steps, starts) = (rows.steps(), rows.starts());
         let ends = starts.iter().skip(1).map(|&(row, _)| row).chain([count]);
         for (&(start, _), end) in starts.iter().zip(ends) {
-            let segment = Segment { start, steps: &steps[start..end], series: &series };
+            let own = start..end;
+            let segment = Segment { start, steps: &steps[own.clone()], series: &series[own] };
             segment.place(delay, &mut shift);
         }
         shift
@@ -93,13 +120,13 @@ fn between(here: f64, next: f64, weight: f64) -> f64 {
     here + weight * (next - here)
 }
 
-struct Segment<'a, F> {
+struct Segment<'a> {
     start: usize,
     steps: &'a [f64],
-    series: &'a F,
+    series: &'a [f64],
 }
 
-impl<F: Fn(usize) -> f64> Segment<'_, F> {
+impl Segment<'_> {
     fn place(&self, delay: f64, shift: &mut Shift) {
         let last = self.steps.len() - 1;
         // Times relative to samples k and i: only differences matter, so rounding does not
@@ -132,9 +159,8 @@ impl<F: Fn(usize) -> f64> Segment<'_, F> {
 
     /// Slope between a sample and the next; 0 beyond the ends.
     fn slope(&self, row: usize) -> f64 {
-        let at = |row: usize| (self.series)(self.start + row);
         match self.steps.get(row.wrapping_add(1)) {
-            Some(&dt) if row < self.steps.len() => (at(row + 1) - at(row)) / dt,
+            Some(&dt) if row < self.steps.len() => (self.series[row + 1] - self.series[row]) / dt,
             _ => 0.0,
         }
     }
