@@ -12,7 +12,9 @@ use super::Outputs;
 use super::columns::{Columns, Rows};
 use crate::composed::Spec;
 use crate::dynamics::Interval;
-use crate::graph::{self, Beginning, Inputs, Numbers, Operation, Recorded, Recorder, Schedule};
+use crate::graph::{
+    self, Beginning, Inputs, Numbers, Operation, Recorded, Recorder, Schedule, Start,
+};
 use crate::scalar::Real;
 use crate::table::Channel;
 
@@ -197,7 +199,7 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> (Recorded<'r>, Optio
     };
     let settled =
         if purpose.settles { bristle.target(end, sample.velocity) } else { Recorded::Known(0.0) };
-    let (before, after) = recorder.relax(course.share, course.target, shift, settled);
+    let [before, after] = recorder.relax(course.share, course.target, shift, settled, Start::Given);
     let rate = match mean_velocity {
         Some(_) => bristle.rate(after, end, sample.velocity),
         None => course.end_rate(before),
