@@ -254,7 +254,7 @@ pub(crate) fn stribeck_curve<S: Real>(
     exponent: S,
 ) -> StribeckCurve<S> {
     let ratio = stribeck_velocity.reciprocal_times(velocity).abs();
-    let argument = S::choose(velocity.at_zero(), S::zero(), ratio.powf(exponent));
+    let argument = velocity.at_zero().either(S::zero, || ratio.powf(exponent));
     StribeckCurve::new(argument, exponent)
 }
 
