@@ -118,7 +118,7 @@ impl<S: Real> TadeseFull<S> {
             velocity.is_positive().either(forward, backward);
         let level = level + level_slope.scale(temperature);
         let speed = speed + speed_slope.scale(temperature);
-        (level * saturation(speed.reciprocal_times(velocity).abs())).scale(velocity.sign())
+        (level * saturation(speed.reciprocal_times(velocity).abs())).along(velocity)
     }
 
     /// `g1 (1 - exp(-|g2 v|)) + g3 + (l1 + l2 v) tl` of the quadrant.
