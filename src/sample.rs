@@ -89,31 +89,34 @@ impl<S: Real> Sample<S> {
         }
     }
 
-    /// The entry of [`Quadrants`] for the signs of velocity and load torque; zero at rest and
-    /// without load.
-    #[inline]
+    /// The numbers of the quadrant that velocity and load torque are in; zeros at rest and without
+    /// load.
+    #[inline(always)]
     #[must_use]
-    pub(crate) fn in_quadrant<T: Real<Plain = S, Mask = S::Mask>>(&self, of: &Quadrants<T>) -> T {
+    pub(crate) fn in_quadrant<T, const N: usize>(&self, of: impl Fn(Quadrant) -> [T; N]) -> [T; N]
+    where
+        T: Real<Plain = S, Mask = S::Mask>,
+    {
         let (v, tl) = (self.velocity, self.load_torque);
-        let (forward, loaded) = (v.is_positive(), tl.is_positive());
-        let moving_forward = T::choose(loaded, of.first, of.fourth);
-        let moving_backward = T::choose(loaded, of.second, of.third);
-        let none = v.at_zero().or(tl.at_zero());
-        T::choose(none, T::zero(), T::choose(forward, moving_forward, moving_backward))
+        let loaded = tl.is_positive();
+        let forward = || loaded.either(|| of(Quadrant::First), || of(Quadrant::Fourth));
+        let backward = || loaded.either(|| of(Quadrant::Second), || of(Quadrant::Third));
+        let moving = || v.is_positive().either(forward, backward);
+        v.at_zero().or(tl.at_zero()).either(|| [T::zero(); N], moving)
     }
 }
 
-/// One value for each combination of signs of velocity and load torque.
+/// A combination of signs of velocity and load torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Quadrants<T> {
+pub(crate) enum Quadrant {
     /// Forward against the load: motoring.
-    pub first: T,
+    First,
     /// Backward with a positive load: generating.
-    pub second: T,
+    Second,
     /// Backward against the load: motoring.
-    pub third: T,
+    Third,
     /// Forward with a negative load: generating.
-    pub fourth: T,
+    Fourth,
 }
 
 /// A friction torque by parts: dry friction times the direction of motion, a rate-dependent part
@@ -251,7 +254,7 @@ pub(crate) fn stribeck_curve<S: Real>(
     exponent: S,
 ) -> StribeckCurve<S> {
     let ratio = stribeck_velocity.reciprocal_times(velocity).abs();
-    let argument = S::choose(velocity.at_zero(), S::zero(), ratio.powf(exponent));
+    let argument = velocity.at_zero().either(S::zero, || ratio.powf(exponent));
     StribeckCurve::new(argument, exponent)
 }
 

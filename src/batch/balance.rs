@@ -80,13 +80,13 @@ enum Outcome {
 }
 
 impl Balance {
-    /// The loads that the model reads and `channels` do not contain; `None` if none are missing.
+    /// The loads that the model reads and `columns` do not contain; `None` if none are missing.
     pub(super) fn of(
         spec: &Spec,
         values: &[f64],
         columns: &Columns<'_>,
-        channels: &Channels<'_>,
     ) -> Result<Option<Self>, BatchError> {
+        let channels = &columns.channels;
         if !Self::is_needed(spec, channels) {
             return Ok(None);
         }
@@ -149,12 +149,12 @@ impl Balance {
     }
 
     /// The channels with all loads.
-    pub(super) fn complete<'a>(&'a self, channels: Channels<'a>) -> Channels<'a> {
-        Channels {
+    pub(super) fn complete<'a>(&'a self, columns: &Columns<'a>) -> Columns<'a> {
+        columns.with(Channels {
             motor_torque: Some(&self.motor),
             external_torque: Some(&self.external),
-            ..channels
-        }
+            ..columns.channels
+        })
     }
 
     /// An error if no motor torque moves the joint at some sample.

@@ -6,10 +6,9 @@ use std::vec::Vec;
 
 use super::columns::Columns;
 use super::compiled::Compiled;
-use super::delay::Shift;
+use super::delay::Delay;
 use super::watch::Watch;
-use super::{BatchError, check_wanted, first_parameter, gradient};
-use crate::catalog::EffectId;
+use super::{BatchError, check_wanted, gradient};
 use crate::composed::Spec;
 use crate::graph::Numbers;
 
@@ -32,8 +31,8 @@ pub(crate) fn blocks(
     if columns.is_balanced(spec) || !spec.with(values)?.runs_side_by_side() {
         return from_gradient(spec, values, columns, wanted, sink);
     }
-    if let Some(delay) = first_parameter(spec, EffectId::Delay) {
-        return delayed(spec, values, columns, wanted, delay, sink);
+    if let Some(delay) = Delay::of(spec, values, wanted) {
+        return delayed(spec, values, columns, wanted, &delay, sink);
     }
     let (rows, read) = columns.unchecked_rows(spec)?;
     let compiled = Compiled::of(spec, wanted, &rows, columns);
@@ -41,7 +40,6 @@ pub(crate) fn blocks(
     compiled.each_block(
         values,
         &rows,
-        columns.channels,
         columns,
         #[inline(always)]
         |block, outputs| {
@@ -76,13 +74,13 @@ fn from_gradient(
     Ok(())
 }
 
-/// Blocks of a model with a delay, whose parameter has this index.
+/// Blocks of a model with a delay.
 fn delayed(
     spec: &Spec,
     values: &[f64],
     columns: &Columns<'_>,
     wanted: &[usize],
-    delay: usize,
+    delay: &Delay,
     mut sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
 ) -> Result<(), BatchError> {
     let rows = columns.rows(spec)?;
@@ -93,8 +91,7 @@ fn delayed(
     compiled.each_block(
         values,
         &rows,
-        columns.smoothed(),
-        columns,
+        &columns.smoothed(),
         #[inline(always)]
         |block, outputs| {
             for (column, numbers) in smooth.chunks_exact_mut(count).zip(outputs) {
@@ -102,14 +99,11 @@ fn delayed(
             }
         },
     );
-    columns.add_load(&mut smooth[..count]);
-    let shift = Shift::of(&rows, values[delay], |row| smooth[row]);
-    let own = wanted.iter().position(|&index| index == delay);
+    let shift = delay.shift(&rows, columns, &mut smooth[..count]);
     let mut shifted = vec![[0.0; BLOCK_LENGTH]; wanted.len() + 1];
     compiled.each_block(
         values,
         &rows,
-        columns.channels,
         columns,
         #[inline(always)]
         |block, outputs| {
@@ -120,7 +114,7 @@ fn delayed(
                 numbers.copy_to(out);
                 shift.add(&block, parallel, column, out);
             }
-            if let Some(own) = own {
+            if let Some(own) = delay.own {
                 shifted[own + 1][..block.len()].copy_from_slice(&shift.by_delay[block.clone()]);
             }
             let numbers: Vec<_> =

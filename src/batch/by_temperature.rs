@@ -56,7 +56,7 @@ fn torque(
         Some(pairs.map(|(temperature, rate)| temperature + step * rate).collect::<Vec<f64>>())
     };
     let channels = ahead(&columns.channels, columns.channels.temperature_rate);
-    let smooth = ahead(&columns.smooth, columns.smoothed().temperature_rate);
+    let smooth = ahead(&columns.smooth, columns.smoothed().channels.temperature_rate);
     let shifted = Columns {
         channels: Channels { temperature: channels.as_deref(), ..columns.channels },
         smooth: Channels { temperature: smooth.as_deref(), ..columns.smooth },

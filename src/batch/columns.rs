@@ -145,10 +145,10 @@ impl Default for Columns<'_> {
 }
 
 impl<'a> Columns<'a> {
-    /// Smoothed channels where present, recorded ones elsewhere.
-    pub(super) fn smoothed(&self) -> Channels<'a> {
+    /// The same columns with smoothed channels where present, recorded ones elsewhere.
+    pub(super) fn smoothed(&self) -> Self {
         let (plain, smooth) = (&self.channels, &self.smooth);
-        Channels {
+        let channels = Channels {
             velocity: if smooth.velocity.is_empty() { plain.velocity } else { smooth.velocity },
             position: smooth.position.or(plain.position),
             acceleration: smooth.acceleration.or(plain.acceleration),
@@ -159,7 +159,13 @@ impl<'a> Columns<'a> {
             motor_torque: smooth.motor_torque.or(plain.motor_torque),
             external_torque: smooth.external_torque.or(plain.external_torque),
             time: smooth.time.or(plain.time),
-        }
+        };
+        self.with(channels)
+    }
+
+    /// The same columns with these channels.
+    pub(super) const fn with(&self, channels: Channels<'a>) -> Self {
+        Self { channels, ..*self }
     }
 
     /// The columns of some samples.
@@ -181,7 +187,7 @@ impl<'a> Columns<'a> {
 
     /// Adds the load torque that a delay shifts together with friction.
     pub(super) fn add_load(&self, series: &mut [f64]) {
-        let load = self.smoothed().load_torque.filter(|_| self.shift_load);
+        let load = self.smoothed().channels.load_torque.filter(|_| self.shift_load);
         for (sum, load) in series.iter_mut().zip(load.unwrap_or_default()) {
             *sum += load;
         }

@@ -9,10 +9,12 @@ use std::vec;
 use std::vec::Vec;
 
 use super::Outputs;
-use super::columns::{Channels, Columns, Rows};
+use super::columns::{Columns, Rows};
 use crate::composed::Spec;
 use crate::dynamics::Interval;
-use crate::graph::{self, Beginning, Inputs, Numbers, Operation, Recorded, Recorder, Schedule};
+use crate::graph::{
+    self, Beginning, Inputs, Numbers, Operation, Recorded, Recorder, Schedule, Start,
+};
 use crate::scalar::Real;
 use crate::table::Channel;
 
@@ -96,7 +98,6 @@ impl Compiled {
         &self,
         values: &[f64],
         rows: &Rows,
-        channels: Channels<'_>,
         columns: &Columns<'_>,
         out: &mut Outputs<'_>,
         mut look: impl FnMut(&Range<usize>),
@@ -107,7 +108,6 @@ impl Compiled {
         self.each_block(
             values,
             rows,
-            channels,
             columns,
             #[inline(always)]
             |block, outputs| {
@@ -134,12 +134,11 @@ impl Compiled {
         &self,
         values: &[f64],
         rows: &Rows,
-        channels: Channels<'_>,
         columns: &Columns<'_>,
         sink: impl FnMut(Range<usize>, &[Numbers<'_>]),
     ) {
-        let mut inputs: Vec<&[f64]> =
-            Channel::ALL.iter().map(|&channel| channels.get(channel).unwrap_or_default()).collect();
+        let channel = |&channel| columns.channels.get(channel).unwrap_or_default();
+        let mut inputs: Vec<&[f64]> = Channel::ALL.iter().map(channel).collect();
         inputs.push(columns.mean_velocity.unwrap_or_default());
         let steps: Cow<'_, [f64]>;
         let mut parameters = values.to_vec();
@@ -200,7 +199,7 @@ fn torque<'r>(purpose: &Purpose, recorder: &'r Recorder) -> (Recorded<'r>, Optio
     };
     let settled =
         if purpose.settles { bristle.target(end, sample.velocity) } else { Recorded::Known(0.0) };
-    let (before, after) = recorder.relax(course.share, course.target, shift, settled);
+    let [before, after] = recorder.relax(course.share, course.target, shift, settled, Start::Given);
     let rate = match mean_velocity {
         Some(_) => bristle.rate(after, end, sample.velocity),
         None => course.end_rate(before),

@@ -1,9 +1,36 @@
-//! Delay of a series, within each segment.
+//! Delay of a torque, within each segment.
 
 use core::ops::Range;
 use std::vec::Vec;
 
-use super::columns::Rows;
+use super::columns::{Columns, Rows};
+use super::first_parameter;
+use crate::catalog::EffectId;
+use crate::composed::Spec;
+
+/// The delay of a model. Its torque and the derivatives are evaluated twice: `f` from the channels
+/// as recorded and `g` from the smoothed ones; `f + S(g) - g` is delayed.
+pub struct Delay {
+    seconds: f64,
+    /// The place of its derivative among those that are wanted.
+    pub own: Option<usize>,
+}
+
+impl Delay {
+    /// Of a model that has one.
+    pub fn of(spec: &Spec, values: &[f64], wanted: &[usize]) -> Option<Self> {
+        let parameter = first_parameter(spec, EffectId::Delay)?;
+        let own = wanted.iter().position(|&index| index == parameter);
+        Some(Self { seconds: values[parameter], own })
+    }
+
+    /// The shift of the torque from the smoothed channels, to which the load is added where it is
+    /// delayed too.
+    pub fn shift(&self, rows: &Rows, columns: &Columns<'_>, torque: &mut [f64]) -> Shift {
+        columns.add_load(torque);
+        Shift::of(rows, self.seconds, torque)
+    }
+}
 
 /// Where a delayed series is read at each sample, `S(g)(t) = g(t - delay)`: by linear interpolation
 /// between a sample and the next, constant beyond the ends of a segment.
@@ -17,20 +44,19 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// Of a series whose number at each sample is `series`.
-    pub fn of(rows: &Rows, delay: f64, series: impl Fn(usize) -> f64) -> Self {
+    fn of(rows: &Rows, delay: f64, series: &[f64]) -> Self {
         let count = rows.count();
-        let room = || Vec::with_capacity(count);
         let mut shift = Self {
             at: Vec::with_capacity(count),
             next: Vec::with_capacity(count),
-            weight: room(),
-            by_delay: room(),
+            weight: Vec::with_capacity(count),
+            by_delay: Vec::with_capacity(count),
         };
         let (steps, starts) = (rows.steps(), rows.starts());
         let ends = starts.iter().skip(1).map(|&(row, _)| row).chain([count]);
         for (&(start, _), end) in starts.iter().zip(ends) {
-            let segment = Segment { start, steps: &steps[start..end], series: &series };
+            let own = start..end;
+            let segment = Segment { start, steps: &steps[own.clone()], series: &series[own] };
             segment.place(delay, &mut shift);
         }
         shift
@@ -40,11 +66,12 @@ impl Shift {
     pub fn add_each(&self, series: &[f64], width: usize, out: &mut [f64]) {
         let row = |row: usize| &series[row * width..(row + 1) * width];
         let places = self.at.iter().zip(&self.next).zip(&self.weight);
-        for ((i, out), ((&at, &next), weight)) in
+        for ((i, out), ((&at, &next), &weight)) in
             out.chunks_exact_mut(width).enumerate().zip(places)
         {
-            for (((out, x), here), next) in out.iter_mut().zip(row(i)).zip(row(at)).zip(row(next)) {
-                *out += here + weight * (next - here) - x;
+            let ends = row(at).iter().zip(row(next));
+            for ((out, &x), (&here, &next)) in out.iter_mut().zip(row(i)).zip(ends) {
+                *out += between(here, next, weight) - x;
             }
         }
     }
@@ -55,10 +82,8 @@ impl Shift {
     pub fn parallel(&self, rows: &Range<usize>) -> Option<usize> {
         let first = self.at[rows.start];
         let mut expected = first..;
-        let pairs = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
-        let in_step =
-            |(&at, &next): (&usize, &usize)| expected.next() == Some(at) && next == at + 1;
-        pairs.into_iter().all(in_step).then_some(first)
+        let mut places = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
+        places.all(|(&at, &next)| expected.next() == Some(at) && next == at + 1).then_some(first)
     }
 
     /// Like [`add_each`](Self::add_each), for some samples of a column; `parallel` is that of these
@@ -73,34 +98,35 @@ impl Shift {
         out: &mut [f64],
     ) {
         let weight = &self.weight[rows.clone()];
-        let own = &column[rows.clone()];
+        let own = out.iter_mut().zip(&column[rows.clone()]).zip(weight);
         if let Some(first) = parallel {
             let here = &column[first..][..weight.len()];
             let next = &column[first + 1..][..weight.len()];
-            let pairs = here.iter().zip(next);
-            for (((out, x), weight), (here, next)) in out.iter_mut().zip(own).zip(weight).zip(pairs)
-            {
-                *out += here + weight * (next - here) - x;
+            for (((out, x), &weight), (&here, &next)) in own.zip(here.iter().zip(next)) {
+                *out += between(here, next, weight) - x;
             }
         } else {
             let places = self.at[rows.clone()].iter().zip(&self.next[rows.clone()]);
-            for (((out, x), weight), (&at, &next)) in
-                out.iter_mut().zip(own).zip(weight).zip(places)
-            {
-                let here = column[at];
-                *out += here + weight * (column[next] - here) - x;
+            for (((out, x), &weight), (&at, &next)) in own.zip(places) {
+                *out += between(column[at], column[next], weight) - x;
             }
         }
     }
 }
 
-struct Segment<'a, F> {
-    start: usize,
-    steps: &'a [f64],
-    series: &'a F,
+/// The number at this share of the way between two.
+#[inline(always)]
+fn between(here: f64, next: f64, weight: f64) -> f64 {
+    here + weight * (next - here)
 }
 
-impl<F: Fn(usize) -> f64> Segment<'_, F> {
+struct Segment<'a> {
+    start: usize,
+    steps: &'a [f64],
+    series: &'a [f64],
+}
+
+impl Segment<'_> {
     fn place(&self, delay: f64, shift: &mut Shift) {
         let last = self.steps.len() - 1;
         // Times relative to samples k and i: only differences matter, so rounding does not
@@ -133,9 +159,8 @@ impl<F: Fn(usize) -> f64> Segment<'_, F> {
 
     /// Slope between a sample and the next; 0 beyond the ends.
     fn slope(&self, row: usize) -> f64 {
-        let at = |row: usize| (self.series)(self.start + row);
         match self.steps.get(row.wrapping_add(1)) {
-            Some(&dt) if row < self.steps.len() => (at(row + 1) - at(row)) / dt,
+            Some(&dt) if row < self.steps.len() => (self.series[row + 1] - self.series[row]) / dt,
             _ => 0.0,
         }
     }

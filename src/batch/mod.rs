@@ -26,7 +26,7 @@ use crate::composed::Spec;
 use balance::Balance;
 use columns::Rows;
 use compiled::Compiled;
-use delay::Shift;
+use delay::Delay;
 use watch::Watch;
 
 /// The friction torque of every sample (T); for a model with memory at the end of the sample's
@@ -210,8 +210,8 @@ pub fn split(
     let model = spec.with(values)?;
     columns.check(spec)?;
     let mut parts = SplitColumns::default();
-    let balance = Balance::of(spec, values, columns, &columns.channels)?;
-    let channels = balance.as_ref().map_or(columns.channels, |b| b.complete(columns.channels));
+    let balance = Balance::of(spec, values, columns)?;
+    let channels = balance.as_ref().map_or(*columns, |b| b.complete(columns)).channels;
     for i in 0..channels.velocity.len() {
         let split = model.split(&channels.sample(i));
         parts.dry.push(split.dry());
@@ -267,7 +267,6 @@ fn in_one_pass(
     let finite = compiled.run(
         values,
         &rows,
-        columns.channels,
         columns,
         &mut out,
         #[inline(always)]
@@ -288,8 +287,8 @@ fn side_by_side(
     locked: Locked,
     out: Outputs<'_>,
 ) -> Result<(), BatchError> {
-    measured(spec, values, columns, wanted, locked, out, |rows, channels, out| {
-        Compiled::of(spec, wanted, rows, columns).run(values, rows, channels, columns, out, |_| ());
+    measured(spec, values, columns, wanted, locked, out, |rows, columns, out| {
+        Compiled::of(spec, wanted, rows, columns).run(values, rows, columns, out, |_| ());
     })
 }
 
@@ -302,40 +301,39 @@ fn measured(
     wanted: &[usize],
     locked: Locked,
     out: Outputs<'_>,
-    run: impl Fn(&Rows, Channels<'_>, &mut Outputs<'_>),
+    run: impl Fn(&Rows, &Columns<'_>, &mut Outputs<'_>),
 ) -> Result<(), BatchError> {
     let rows = columns.rows(spec)?;
     let width = wanted.len();
     check_length(out.torque, rows.count())?;
     check_length(out.slopes, rows.count() * width)?;
-    let balanced = |channels: Channels<'_>, mut out: Outputs<'_>| -> Result<(), BatchError> {
-        let Some(balance) = Balance::of(spec, values, columns, &channels)? else {
-            run(&rows, channels, &mut out);
+    let balanced = |columns: &Columns<'_>, mut out: Outputs<'_>| -> Result<(), BatchError> {
+        let Some(balance) = Balance::of(spec, values, columns)? else {
+            run(&rows, columns, &mut out);
             return Ok(());
         };
-        let channels = balance.complete(channels);
-        run(&rows, channels, &mut out);
+        let columns = balance.complete(columns);
+        run(&rows, &columns, &mut out);
         if locked == Locked::Refused {
             balance.refuse_locked()?;
         }
         balance.settle(out.torque);
-        balance.settle_slopes(spec, &channels, wanted, out.slopes);
+        balance.settle_slopes(spec, &columns.channels, wanted, out.slopes);
         Ok(())
     };
     let Outputs { torque, slopes } = out;
-    balanced(columns.channels, Outputs { torque: &mut *torque, slopes: &mut *slopes })?;
-    let Some(delay) = first_parameter(spec, EffectId::Delay) else { return Ok(()) };
+    balanced(columns, Outputs { torque: &mut *torque, slopes: &mut *slopes })?;
+    let Some(delay) = Delay::of(spec, values, wanted) else { return Ok(()) };
     let mut shifted = vec![0.0; torque.len()];
     let mut shifted_slopes = vec![0.0; slopes.len()];
     let both = Outputs { torque: &mut shifted, slopes: &mut shifted_slopes };
-    balanced(columns.smoothed(), both)?;
-    columns.add_load(&mut shifted);
-    let shift = Shift::of(&rows, values[delay], |row| shifted[row]);
+    balanced(&columns.smoothed(), both)?;
+    let shift = delay.shift(&rows, columns, &mut shifted);
     shift.add_each(&shifted, 1, torque);
     if width > 0 {
         shift.add_each(&shifted_slopes, width, slopes);
     }
-    if let Some(own) = wanted.iter().position(|&index| index == delay) {
+    if let Some(own) = delay.own {
         for (row, slope) in slopes.chunks_exact_mut(width).zip(shift.by_delay) {
             row[own] = slope;
         }

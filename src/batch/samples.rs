@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::columns::{Channels, Columns, Rows};
+use super::columns::{Columns, Rows};
 use super::error::BatchError;
 use super::{Locked, Outputs, check_length, measured};
 use crate::composed::{Composed, Spec};
@@ -104,8 +104,8 @@ pub(super) fn each<S: Single>(
         values.iter().enumerate().map(|(i, &x)| S::parameter(x, direction(i))).collect();
     let model = spec.with(&parameters)?;
     let width = wanted.len();
-    measured(spec, values, columns, wanted, locked, out, |rows, channels, out| {
-        evaluate(&model, rows, channels, columns, |row, t: &S| {
+    measured(spec, values, columns, wanted, locked, out, |rows, columns, out| {
+        evaluate(&model, rows, columns, |row, t: &S| {
             out.torque[row] = t.value();
             // Turns -0 into 0: the sign of zero depends on the other derivatives requested.
             let slopes = &mut out.slopes[row * width..(row + 1) * width];
@@ -117,7 +117,6 @@ pub(super) fn each<S: Single>(
 fn evaluate<S: Scalar>(
     model: &Composed<S>,
     rows: &Rows,
-    channels: Channels<'_>,
     columns: &Columns<'_>,
     mut sink: impl FnMut(usize, &S),
 ) {
@@ -125,7 +124,7 @@ fn evaluate<S: Scalar>(
     let mut state = fresh;
     let mut starts = rows.starts().iter().copied().peekable();
     for (i, &dt) in rows.steps().iter().enumerate() {
-        let sample = channels.sample(i);
+        let sample = columns.channels.sample(i);
         let beginning = starts.next_if(|&(row, _)| row == i).map(|(_, beginning)| beginning);
         match beginning {
             Some(Beginning::Settled) => state = model.settled(&sample),

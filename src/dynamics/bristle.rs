@@ -82,7 +82,7 @@ impl<S: Real> Bristle<S> {
     /// `x` with the sign of the velocity.
     #[inline(always)]
     fn along(&self, velocity: S::Plain, x: S) -> S {
-        self.smoothed_sign(velocity).map_or_else(|| x.scale(velocity.sign()), |sign| x * sign)
+        self.smoothed_sign(velocity).map_or_else(|| x.along(velocity), |sign| x * sign)
     }
 
     /// The effect of a constant velocity on the deflection over `dt` (s); none with `dt <= 0`.
@@ -119,7 +119,7 @@ impl<S: Real> Bristle<S> {
         [velocity, last]: [S::Plain; 2],
     ) -> S {
         let moved = match self.sign_steepness {
-            None => ((end - dry) / self.stiffness).scale(velocity.sign()),
+            None => ((end - dry) / self.stiffness).along(velocity),
             Some(_) => {
                 // Only the magnitude of the smoothed sign changes, not the direction of motion.
                 let along = velocity.sign() * last.sign();

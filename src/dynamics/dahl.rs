@@ -43,7 +43,7 @@ impl<S: Real> DahlBristle<S> {
         let Slid { mean, following } = self.advance(state, dry, interval);
         if interval.mean_velocity.is_some() {
             let moved = (split.dry() - dry) / self.stiffness;
-            state.z += moved.scale(interval.velocity().sign()) * following;
+            state.z += moved.along(interval.velocity()) * following;
         }
         let torque = self.stiffness * state.z + split.rate + split.additive;
         if !interval.mean {
@@ -63,7 +63,7 @@ impl<S: Real> DahlBristle<S> {
         let before = state.z;
         let travel = interval.travel();
         let pull = self.stiffness.scale(travel);
-        let target = (dry / self.stiffness).scale(interval.velocity().sign());
+        let target = (dry / self.stiffness).along(interval.velocity());
         let slides = || {
             let gap = target - before;
             let Fall { covered, mean, following } =

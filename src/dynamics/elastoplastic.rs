@@ -60,7 +60,7 @@ impl<S: Real> ElastoplasticBristle<S> {
         let glide = self.advance(state, dry, interval);
         if interval.mean_velocity.is_some() {
             let moved = (split.dry() - dry) / self.stiffness;
-            state.z += moved.scale(interval.velocity().sign()) * glide.following;
+            state.z += moved.along(interval.velocity()) * glide.following;
         }
         let velocity = interval.sample.velocity;
         let rate = self.slope(state.z, split.dry(), velocity).scale(velocity);
@@ -85,7 +85,7 @@ impl<S: Real> ElastoplasticBristle<S> {
     fn slope(&self, z: S, dry: S, velocity: S::Plain) -> S {
         let vanished = self.stiffness.reaches(dry.plain() * S::Plain::from_f64(VANISHED));
         let slides = || {
-            let x = (self.stiffness * z / dry).scale(velocity.sign());
+            let x = (self.stiffness * z / dry).along(velocity);
             slope_at(x, self.breakaway())
         };
         vanished.either(S::zero, slides)

@@ -56,7 +56,7 @@ impl<S: Real> LeuvenBristle<'_, S> {
         }
         let velocity = interval.sample.velocity;
         let force = self.total(state);
-        let rate = slope(force.scale(velocity.sign()), end).scale(velocity);
+        let rate = slope(force.along(velocity), end).scale(velocity);
         let torque = force + self.damping * rate + split.rate + split.additive;
         if !interval.mean {
             return Step::same(torque);

@@ -23,9 +23,9 @@ mod two_valued;
 pub use derivative::derivatives;
 pub use model::model;
 pub use numbers::{Numbers, all_finite};
-pub use operation::Operation;
 #[cfg(feature = "python")]
 pub use operation::{Binary, Id, Unary};
+pub use operation::{Operation, Start};
 #[cfg(feature = "python")]
 pub use recorded::Format;
 pub use recorded::Recorded;

@@ -68,7 +68,8 @@ impl Recorder {
         target: Recorded<'r>,
         shift: Recorded<'r>,
         settled: Recorded<'r>,
-    ) -> (Recorded<'r>, Recorded<'r>) {
+        start: Start,
+    ) -> [Recorded<'r>; 2] {
         let settled = self.id(settled);
         let relaxing = Relaxing {
             share: self.id(share),
@@ -76,26 +77,17 @@ impl Recorder {
             extra: self.constant(0.0),
             shift: self.id(shift),
             settled,
-            start: Start::Given,
+            start,
         };
         let after = self.node(Operation::Relax(relaxing));
-        let before = self.number(Operation::Before(after, settled, Start::Given));
-        (before, Recorded::Node(self, after))
+        let before = self.number(Operation::Before(after, settled, start));
+        [before, Recorded::Node(self, after)]
     }
 
     /// A state that starts at 0 and relaxes to 0, shifted in each step: before and after a sample.
     fn relax_to_zero<'r>(&'r self, share: Recorded<'r>, shift: Recorded<'r>) -> [Recorded<'r>; 2] {
-        let zero = self.constant(0.0);
-        let after = self.node(Operation::Relax(Relaxing {
-            share: self.id(share),
-            target: zero,
-            extra: zero,
-            shift: self.id(shift),
-            settled: zero,
-            start: Start::Zero,
-        }));
-        let before = self.number(Operation::Before(after, zero, Start::Zero));
-        [before, Recorded::Node(self, after)]
+        let zero = Recorded::zero();
+        self.relax(share, zero, shift, zero, Start::Zero)
     }
 
     /// A unary operation.

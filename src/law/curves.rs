@@ -8,7 +8,7 @@ use crate::scalar::Real;
 pub fn signed_power<S: Real>(velocity: S::Plain, exponent: S) -> S {
     let power = exponent.exp_with_base(velocity.abs());
     // An infinite power is replaced by a large one, so that a coefficient of 0 still gives 0.
-    let power = S::choose(power.is_finite(), power, S::from_f64(1e30)).scale(velocity.sign());
+    let power = S::choose(power.is_finite(), power, S::from_f64(1e30)).along(velocity);
     S::choose(velocity.at_zero(), S::zero(), power)
 }
 

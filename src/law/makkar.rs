@@ -47,7 +47,7 @@ impl<S: Real> FrictionLaw<S> for Makkar<S> {
         let rise = self.stribeck_rise.scale(v).tanh();
         let fall = self.stribeck_fall.scale(v).tanh();
         let sign = self.sign_steepness.scale(v).tanh();
-        let left = S::one() - fall.scale(v.sign());
+        let left = S::one() - fall.along(v);
         Split {
             smoothed_amplitude: self.coulomb_friction + self.stribeck_height * left,
             smoothed_torque: self.stribeck_height * (rise - fall) + self.coulomb_friction * sign,

@@ -4,8 +4,8 @@ use super::FrictionLaw;
 use super::curves::saturation;
 use crate::constants::Constants;
 use crate::dynamics::Bristle;
-use crate::sample::{Quadrants, Sample, Split};
-use crate::scalar::Real;
+use crate::sample::{Quadrant, Sample, Split};
+use crate::scalar::{Mask, Real};
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
 parameters! {
@@ -98,50 +98,63 @@ impl<S: Real> TadeseFull<S> {
     /// `s2(T) (1 - exp(-|v/s3(T)|))` along the direction of motion.
     #[inline]
     fn viscous(&self, velocity: S::Plain, temperature: S::Plain) -> S {
-        let forward = velocity.is_positive();
-        let of = |plus, minus| S::choose(forward, plus, minus);
-        let level = of(self.viscous_level_forward, self.viscous_level_backward);
-        let level_slope = of(self.viscous_level_slope_forward, self.viscous_level_slope_backward);
-        let speed = of(self.viscous_speed_forward, self.viscous_speed_backward);
-        let speed_slope = of(self.viscous_speed_slope_forward, self.viscous_speed_slope_backward);
+        let forward = || {
+            [
+                self.viscous_level_forward,
+                self.viscous_level_slope_forward,
+                self.viscous_speed_forward,
+                self.viscous_speed_slope_forward,
+            ]
+        };
+        let backward = || {
+            [
+                self.viscous_level_backward,
+                self.viscous_level_slope_backward,
+                self.viscous_speed_backward,
+                self.viscous_speed_slope_backward,
+            ]
+        };
+        let [level, level_slope, speed, speed_slope] =
+            velocity.is_positive().either(forward, backward);
         let level = level + level_slope.scale(temperature);
         let speed = speed + speed_slope.scale(temperature);
-        (level * saturation(speed.reciprocal_times(velocity).abs())).scale(velocity.sign())
+        (level * saturation(speed.reciprocal_times(velocity).abs())).along(velocity)
     }
 
     /// `g1 (1 - exp(-|g2 v|)) + g3 + (l1 + l2 v) tl` of the quadrant.
     #[inline]
     fn load(&self, sample: &Sample<S::Plain>) -> S {
-        let rise = sample.in_quadrant(&Quadrants {
-            first: self.load_rise_forward_motoring,
-            second: self.load_rise_backward_generating,
-            third: self.load_rise_backward_motoring,
-            fourth: self.load_rise_forward_generating,
-        });
-        let rise_rate = sample.in_quadrant(&Quadrants {
-            first: self.load_rise_rate_forward_motoring,
-            second: self.load_rise_rate_backward_generating,
-            third: self.load_rise_rate_backward_motoring,
-            fourth: self.load_rise_rate_forward_generating,
-        });
-        let jump = sample.in_quadrant(&Quadrants {
-            first: self.load_jump_forward_motoring,
-            second: self.load_jump_backward_generating,
-            third: self.load_jump_backward_motoring,
-            fourth: self.load_jump_forward_generating,
-        });
-        let friction = sample.in_quadrant(&Quadrants {
-            first: self.load_friction_forward_motoring,
-            second: self.load_friction_backward_generating,
-            third: self.load_friction_backward_motoring,
-            fourth: self.load_friction_forward_generating,
-        });
-        let viscous = sample.in_quadrant(&Quadrants {
-            first: self.load_viscous_forward_motoring,
-            second: self.load_viscous_backward_generating,
-            third: self.load_viscous_backward_motoring,
-            fourth: self.load_viscous_forward_generating,
-        });
+        let [rise, rise_rate, jump, friction, viscous] =
+            sample.in_quadrant(|quadrant| match quadrant {
+                Quadrant::First => [
+                    self.load_rise_forward_motoring,
+                    self.load_rise_rate_forward_motoring,
+                    self.load_jump_forward_motoring,
+                    self.load_friction_forward_motoring,
+                    self.load_viscous_forward_motoring,
+                ],
+                Quadrant::Second => [
+                    self.load_rise_backward_generating,
+                    self.load_rise_rate_backward_generating,
+                    self.load_jump_backward_generating,
+                    self.load_friction_backward_generating,
+                    self.load_viscous_backward_generating,
+                ],
+                Quadrant::Third => [
+                    self.load_rise_backward_motoring,
+                    self.load_rise_rate_backward_motoring,
+                    self.load_jump_backward_motoring,
+                    self.load_friction_backward_motoring,
+                    self.load_viscous_backward_motoring,
+                ],
+                Quadrant::Fourth => [
+                    self.load_rise_forward_generating,
+                    self.load_rise_rate_forward_generating,
+                    self.load_jump_forward_generating,
+                    self.load_friction_forward_generating,
+                    self.load_viscous_forward_generating,
+                ],
+            });
         let per_load = friction + viscous.scale(sample.velocity);
         let rise = rise * saturation(rise_rate.scale(sample.velocity).abs());
         rise + jump + per_load.scale(sample.load_torque)
@@ -183,8 +196,8 @@ impl<S: Real> FrictionLaw<S> for TadeseFull<S> {
             self.coulomb_friction_backward,
             self.coulomb_friction_forward,
         );
-        let rate = self.viscous(v, sample.temperature) + self.load(sample);
-        Split { coulomb, rate: S::choose(v.at_zero(), S::zero(), rate), ..Split::zero() }
+        let moving = || self.viscous(v, sample.temperature) + self.load(sample);
+        Split { coulomb, rate: v.at_zero().either(S::zero, moving), ..Split::zero() }
     }
 
     #[inline]

@@ -49,7 +49,7 @@ impl<S: Real> TadeseT<S> {
         let rise = at(self.viscous_rise, self.viscous_rise_slope);
         let exponent = at(self.viscous_exponent, self.viscous_exponent_slope);
         let reach = rise.scale(velocity).abs().powf(exponent);
-        let torque = (level * saturation(reach)).scale(velocity.sign());
+        let torque = (level * saturation(reach)).along(velocity);
         S::choose(velocity.at_zero(), S::zero(), torque)
     }
 }

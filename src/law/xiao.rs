@@ -4,7 +4,7 @@ use super::FrictionLaw;
 use super::curves::gaussian_curve;
 use crate::constants::Constants;
 use crate::dynamics::Bristle;
-use crate::sample::{Quadrants, Sample, Split};
+use crate::sample::{Quadrant, Sample, Split};
 use crate::scalar::Real;
 use crate::table::{Channel, LawInfo, Parameters, parameters};
 
@@ -41,11 +41,11 @@ impl<S: Real> Xiao<S> {
     /// `l_i |tl| sgn v` of the quadrant.
     #[inline]
     fn load(&self, sample: &Sample<S::Plain>) -> S {
-        let per_load = sample.in_quadrant(&Quadrants {
-            first: self.load_friction_forward_motoring,
-            second: self.load_friction_backward_generating,
-            third: self.load_friction_backward_motoring,
-            fourth: self.load_friction_forward_generating,
+        let [per_load] = sample.in_quadrant(|quadrant| match quadrant {
+            Quadrant::First => [self.load_friction_forward_motoring],
+            Quadrant::Second => [self.load_friction_backward_generating],
+            Quadrant::Third => [self.load_friction_backward_motoring],
+            Quadrant::Fourth => [self.load_friction_forward_generating],
         });
         per_load.scale(sample.load_torque.abs() * sample.velocity.sign())
     }

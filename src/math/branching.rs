@@ -72,9 +72,10 @@ pub fn powf<F: Format>(x: F, p: F) -> F {
 #[inline(never)]
 fn any_power<F: Format>(x: F, p: F) -> F {
     let usual_base = x.is_between(F::SMALLEST_NORMAL, F::INFINITY);
-    if usual_base && p.abs().is_between(F::of(0.0), F::EXP2_NORMAL) && !p.has_bits_of(F::of(1.0)) {
+    if usual_base && !p.has_bits_of(F::of(1.0)) {
         let logarithm = power::log2_fast(x);
         let (product, rest) = power::product(p, logarithm);
+        // Not for an exponent that is NaN or very large: except for `x = 1`, whose power is 1.
         if product.abs().is_between(F::of(0.0), F::EXP2_NORMAL) {
             let (n, bits) = (product + rest).nearest();
             let fraction = (product - n) + rest;

@@ -60,6 +60,12 @@ pub trait Real:
     }
     /// `a x`.
     fn scale(self, factor: Self::Plain) -> Self;
+    /// `x sgn v`. A single number is not multiplied.
+    #[inline(always)]
+    #[must_use]
+    fn along(self, velocity: Self::Plain) -> Self {
+        self.scale(velocity.sign())
+    }
     /// `x + a`.
     fn shift(self, by: Self::Plain) -> Self;
     /// `x += a y`.
@@ -221,6 +227,17 @@ macro_rules! primitive {
             #[inline]
             fn scale(self, factor: Self) -> Self {
                 self * factor
+            }
+
+            #[inline(always)]
+            fn along(self, velocity: Self) -> Self {
+                if velocity > 0.0 {
+                    self
+                } else if velocity < 0.0 {
+                    -self
+                } else {
+                    self * (velocity + 0.0)
+                }
             }
 
             #[inline]

@@ -17,12 +17,12 @@ MARGIN = 0.05
 RESOLUTION = 1
 # Largest mean and largest number of instructions, whatever the table says.
 BARS = {
-    ("lugre_squared", "Cortex-M4F"): (140, 170),
-    ("lugre", "Cortex-M4F"): (280, 280),
-    ("tadese_full", "Cortex-M4F"): (450, 450),
-    ("bittencourt_a", "Cortex-M4F"): (240, 240),
-    ("bittencourt_a_squared", "Cortex-M4F"): (110, 110),
-    ("lugre_squared", "Cortex-M7"): (165, 190),
+    ("lugre_squared", "Cortex-M4F"): (120, 150),
+    ("lugre", "Cortex-M4F"): (260, 280),
+    ("tadese_full", "Cortex-M4F"): (280, 310),
+    ("bittencourt_a", "Cortex-M4F"): (200, 220),
+    ("bittencourt_a_squared", "Cortex-M4F"): (60, 80),
+    ("lugre_squared", "Cortex-M7"): (160, 180),
     ("robot_feedforward", "Cortex-M7"): (12_000, 12_000),
 }
 

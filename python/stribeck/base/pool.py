@@ -76,8 +76,12 @@ def threads() -> int:
     return worker_count() if multiprocessing.parent_process() is None else 1
 
 
-class _Limit:
-    """The limit of the linear algebra, while at least one caller needs it."""
+class _SerialLinearAlgebra(contextlib.ContextDecorator):
+    """Products of matrices use one thread, while at least one caller needs it.
+
+    With several threads the bits of a product depend on their number, and between the products the
+    idle threads of OpenBLAS keep a core busy, which threads of our own need.
+    """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -97,24 +101,14 @@ class _Limit:
                 self._limit.restore_original_limits()
 
 
-_LIMIT = _Limit()
-
-
-@contextlib.contextmanager
-def serial_linear_algebra() -> Iterator[None]:
-    """Products of matrices use one thread; also usable as a decorator.
-
-    With several threads the bits of a product depend on their number, and between the products the
-    idle threads of OpenBLAS keep a core busy, which threads of our own need.
-    """
-    with _LIMIT:
-        yield
+#: For `with`, and as a decorator; from any thread.
+serial_linear_algebra = _SerialLinearAlgebra()
 
 
 @contextlib.contextmanager
 def on_threads() -> Iterator[ThreadPoolExecutor]:
     """Yield a pool of `threads` threads; linear algebra uses one thread in each."""
-    with serial_linear_algebra(), ThreadPoolExecutor(threads()) as pool:
+    with serial_linear_algebra, ThreadPoolExecutor(threads()) as pool:
         yield pool
 
 

@@ -157,7 +157,7 @@ class Comparison(Plotted):
 
 
 @door(FitError)
-@serial_linear_algebra()
+@serial_linear_algebra
 def compare(
     fits: Sequence[Fit],
     recording: Recordings,

@@ -47,7 +47,7 @@ NOT_ASKED = Unexplained(None, None, asked=False)
 
 
 @door(FitError, fitted=FIT)
-@serial_linear_algebra()
+@serial_linear_algebra
 def diagnose(
     fitted: Fit,
     recording: Recordings | None = None,

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 
 @door(FitError, spec=MODEL)
-@serial_linear_algebra()
+@serial_linear_algebra
 def fit(
     spec: str | Model,
     recording: Recordings,

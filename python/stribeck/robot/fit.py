@@ -47,7 +47,7 @@ class InPasses(Protocol):
         ...
 
 
-@serial_linear_algebra()
+@serial_linear_algebra
 def fit_robot(
     motion: RobotMotion | InPasses,
     spec: str = ORDINARY,

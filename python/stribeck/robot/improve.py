@@ -119,7 +119,7 @@ class RobotImprovement(Shown):
         }
 
 
-@serial_linear_algebra()
+@serial_linear_algebra
 def improve_robot(
     motion: RobotMotion | InPasses,
     spec: str = ORDINARY,

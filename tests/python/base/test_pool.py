@@ -180,12 +180,10 @@ def threads_of_linear_algebra() -> set[int]:
 def test_linear_algebra_is_serial_until_the_last_caller_leaves():
     with threadpool_limits(2, user_api="blas"):
         before = threads_of_linear_algebra()
-        first, second = serial_linear_algebra(), serial_linear_algebra()
-        first.__enter__()
-        second.__enter__()
-        first.__exit__(None, None, None)
-        assert threads_of_linear_algebra() == {1}
-        second.__exit__(None, None, None)
+        with serial_linear_algebra:
+            with serial_linear_algebra:
+                pass
+            assert threads_of_linear_algebra() == {1}
         assert threads_of_linear_algebra() == before
 
 

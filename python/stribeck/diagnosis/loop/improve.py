@@ -136,7 +136,7 @@ class Improvement(Plotted):
 
 
 @door(FitError, base=MODEL)
-@serial_linear_algebra()
+@serial_linear_algebra
 def improve(
     base: str | Model,
     recording: Recordings,

@@ -41,7 +41,7 @@ FASTER = 5.0
 
 
 @door(of=WITH_MODEL)
-@serial_linear_algebra()
+@serial_linear_algebra
 def plan(
     of: Fit | ModelFile,
     *,
