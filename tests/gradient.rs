@@ -7,7 +7,7 @@ use stribeck::{Dual, Real, Spec};
 
 #[test]
 fn gradient_is_the_derivative_of_every_model() {
-    let motion = motion(120);
+    let motion = motion(250);
     let mut smooth = motion.columns();
     smooth.smooth.velocity = &motion.acceleration;
     smooth.smooth.load_torque = Some(&motion.temperature);
