@@ -159,6 +159,10 @@ def recording_options(command: Command) -> Command:
     return gathered(command, map(_click_option, table), "reading", build)
 
 
+#: Arguments of the options that only a command which reads and fits DATA reads.
+OF_DATA = ("starts", *(entry.name for entry in TABLE if entry.command_line))
+
+
 def read_recording(path: Given, reading: ReadOptions) -> Recording:
     """Read the recording of one joint from one or several files, and print its notes on stderr."""
     recording = read_with(path, reading)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from stribeck.base.errors import SpecError, nearest, option
 from stribeck.models.model import Model
@@ -92,6 +92,27 @@ def check_sides(box: Box) -> None:
     """Raise `SpecError` for a side that is unknown or not finite, or has its higher end first."""
     for name, (low, high) in box.items():
         _check_side(name, low, high)
+
+
+def refuse_unread(box: Box, spec: str, reads: Iterable[str]) -> None:
+    """Raise `SpecError` for a given side that is invalid, or that nothing reads.
+
+    Parameters
+    ----------
+    spec
+        The model, as the sentence names it.
+    reads
+        The channels on which it depends.
+    """
+    check_sides(box)
+    read = [name for name in CHANNELS if name in set(reads)]
+    for name, (low, high) in box.items():
+        if name not in read:
+            given = option("box", f"{name}={low:g}:{high:g}")
+            raise SpecError(
+                f"{given} has no effect with {spec}, which depends on {', '.join(read)}, "
+                f"only with a model that depends on {name}: omit it"
+            )
 
 
 def _check_side(name: str, low: float, high: float) -> None:

@@ -152,7 +152,7 @@ def test_the_torque_before_a_ball_screw_is_that_of_the_motor():
 def test_options_of_the_closed_loop_are_refused_beside_a_push(option: tuple[str, ...]) -> None:
     done = run(*COULOMB, "--inertia", "1", "--torque", "12", *option)
     assert isinstance(done.exception, SpecError)
-    assert str(done.exception).startswith(f"{option[0]} is of the closed loop, and --torque")
+    assert str(done.exception).startswith(f"{option[0]} has no effect with --torque")
 
 
 def test_a_bandwidth_of_zero_is_refused() -> None:
