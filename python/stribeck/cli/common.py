@@ -182,7 +182,7 @@ def _of_checks(recording: Recording) -> Iterator[str]:
     for check in recording.checks:
         if check.is_open:
             yield check.said + (f"; {check.do}" if check.do else "")
-        elif not check.ok and recording.trusted:
+        elif not check.ok and check.trustable and recording.trusted:
             yield f"accepted with --trust: {check.said}"
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from stribeck.base.errors import SpecError, nearest, option
+from stribeck.base.units import ABSOLUTE_ZERO
 from stribeck.models.model import Model
 
 Box = Mapping[str, tuple[float, float]]
@@ -123,5 +124,10 @@ def _check_side(name: str, low: float, high: float) -> None:
         )
     if not (math.isfinite(low) and math.isfinite(high)):
         raise SpecError(f"the box's {name} is {low:g}:{high:g}: give two finite numbers")
+    if name == "temperature" and low < ABSOLUTE_ZERO:
+        raise SpecError(
+            f"the box's temperature is {low:g}:{high:g} degC, below absolute zero: give "
+            f"{ABSOLUTE_ZERO} or more"
+        )
     if low > high:
         raise SpecError(f"the box's {name} is {low:g}:{high:g}: give the lower end first")

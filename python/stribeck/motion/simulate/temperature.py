@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from stribeck.base.errors import SpecError, option
+from stribeck.base.units import ABSOLUTE_ZERO
 from stribeck.models.model import Model
 
 #: Where the friction does not depend on it and its operating box has none, degC.
@@ -30,13 +32,19 @@ def joint_temperature(
     Raises
     ------
     SpecError
-        It is needed and not given, or given and not read.
+        It is needed and not given, or given and not read, or below absolute zero.
     """
     if given is not None:
         if not any("temperature" in model.core.needs for model in (friction, *others)):
             raise SpecError(
                 f"{option('temperature')} has no effect with {friction.spec}, only with a model "
                 f"that depends on the temperature, such as one with temperature_viscous: omit it"
+            )
+        coldest = float(np.min(given))
+        if coldest < ABSOLUTE_ZERO:
+            raise SpecError(
+                f"{option('temperature', coldest)} is below absolute zero: give {ABSOLUTE_ZERO} "
+                f"degC or more"
             )
         return given
     if "temperature" in friction.box:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from stribeck.base.errors import option
+from stribeck.base.units import ABSOLUTE_ZERO
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.view import View
 
@@ -11,7 +12,7 @@ __all__ = ["check_temperature"]
 #: Joints and their motors are between these, degC: cold stores, and the limit of windings.
 _COLDEST, _HOTTEST = -60.0, 200.0
 #: Units that a temperature may be in instead: gain and offset to degC.
-_OTHER = {"K": (1.0, -273.15), "degF": (5.0 / 9.0, -160.0 / 9.0)}
+_OTHER = {"K": (1.0, ABSOLUTE_ZERO), "degF": (5.0 / 9.0, -160.0 / 9.0)}
 #: Scales of integers in logs.
 _SCALES = (10.0, 100.0, 1000.0)
 
@@ -30,17 +31,22 @@ def check_temperature(view: View) -> Check | None:
     low, high = float(values.min()), float(values.max())
     if _plausible(low, high):
         return Check("temperature", True, f"{low:.3g} to {high:.3g} degC is plausible")
-    column = view.column("temperature")
-    said = f"'{column}' is {low:.4g} to {high:.4g} degC, which no joint has"
+    possible = low >= ABSOLUTE_ZERO
+    what = "which no joint has" if possible else "below absolute zero"
+    said = f"'{view.column('temperature')}' is {low:.4g} to {high:.4g} degC, {what}"
+    return Check("temperature", False, said, _remedy(view, low, high), trustable=possible)
+
+
+def _remedy(view: View, low: float, high: float) -> str:
+    """The option with which the temperature is plausible; else the one that leaves it out."""
     for unit, (gain, offset) in _OTHER.items():
         if _plausible(gain * low + offset, gain * high + offset):
-            return Check("temperature", False, said, f"give {option('unit', f'{column}={unit}')}")
+            column = view.column("temperature")
+            return f"give {option('unit', f'{column}={unit}')}"
     for scale in _SCALES:
         if _plausible(low / scale, high / scale):
-            derived = view.derived("temperature", f"{{}}/{scale:g}")
-            return Check("temperature", False, said, f"give {derived}")
-    do = f"leave it out with {option('map', 'temperature=none')}"
-    return Check("temperature", False, said, do)
+            return f"give {view.derived('temperature', f'{{}}/{scale:g}')}"
+    return f"leave it out with {option('map', 'temperature=none')}"
 
 
 def _plausible(low: float, high: float) -> bool:

@@ -148,6 +148,14 @@ def test_fits_refuse_a_contradiction_and_trust_goes_on(write):
     assert sb.fit("coulomb", read(path, unit="velocity=rpm"), starts=1).rmse > 0.0
 
 
+def test_trust_accepts_no_temperature_below_absolute_zero(write):
+    path = write(joint().with_columns(temperature=pl.lit(-700.0)), "cold.parquet")
+    sentence = "'temperature' is -700 to -700 degC, below absolute zero: [^;]*$"
+    for trust in (False, True):
+        with pytest.raises(RecordingError, match=sentence):
+            sb.fit("coulomb", read(path, trust=trust), starts=1)
+
+
 def _run(capsys, monkeypatch, *arguments):
     """Exit code, stdout and stderr of a command."""
     monkeypatch.setattr("sys.argv", ["stribeck", *arguments])
