@@ -253,10 +253,9 @@ class Recording(Plotted):
             return
         first, count = wrong[0], len(wrong) - 1
         more = f" ({count} more: `stribeck inspect` lists them)" if count else ""
-        remedies = [] if first.do is None else [first.do]
-        if first.trustable:
-            remedies.append(f"go on with {option('trust')}")
-        raise RecordingError(f"{self.path}: {first.said}{more}: {'; or '.join(remedies)}")
+        trust = f"go on with {option('trust')}" if first.trustable else None
+        remedies = "; or ".join(filter(None, (first.do, trust)))
+        raise RecordingError(f"{self.path}: {first.said}{more}: {remedies}")
 
     @property
     def torque_holds_load(self) -> bool:

@@ -21,3 +21,13 @@ def test_another_kind_of_joint_is_refused() -> None:
     fitted = sb.fit("coulomb", linear, starts=1)
     with pytest.raises(sb.FitError, match="it is a model of another kind of joint"):
         evaluated_on(fitted, [turning])
+
+
+def test_a_model_with_given_values_is_not_said_to_be_fitted() -> None:
+    t = np.arange(3000) / 100.0
+    r = sb.Recording.from_columns(time=t, velocity=np.cos(t), torque=np.sign(np.cos(t)))
+    known = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    text = repr(sb.evaluate(known, r))
+    assert "held-out error" in text and "the model is taken as it is, nothing is fitted" in text
+    assert "by a model fitted without it" not in text
+    assert "by a model fitted without it" in repr(sb.fit("coulomb", r, starts=1))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from stribeck.base.errors import option
 from stribeck.base.units import ABSOLUTE_ZERO
+from stribeck.recording.arrays import Floats
 from stribeck.recording.check import Check
-from stribeck.recording.consistency.view import View
+from stribeck.recording.consistency.view import View, quoted
 
 __all__ = ["check_temperature"]
 
@@ -31,10 +34,35 @@ def check_temperature(view: View) -> Check | None:
     low, high = float(values.min()), float(values.max())
     if _plausible(low, high):
         return Check("temperature", True, f"{low:.3g} to {high:.3g} degC is plausible")
+    missing = _mark(values)
+    if missing is not None:
+        return _missing(view, missing, int((values == missing).sum()))
     possible = low >= ABSOLUTE_ZERO
     what = "which no joint has" if possible else "below absolute zero"
     said = f"'{view.column('temperature')}' is {low:.4g} to {high:.4g} degC, {what}"
     return Check("temperature", False, said, _remedy(view, low, high), trustable=possible)
+
+
+def _mark(values: Floats) -> float | None:
+    """The one value that stands for a missing one: all others are plausible."""
+    wrong = values[(values < _COLDEST) | (values > _HOTTEST)]
+    return float(wrong[0]) if wrong.size < values.size and np.ptp(wrong) == 0.0 else None
+
+
+def _missing(view: View, value: float, count: int) -> Check:
+    """The check of a temperature with a value that marks missing ones."""
+    column = view.column("temperature")
+    unit = view.prepared.choices["temperature"].unit
+    stored = value if unit is None else (value - unit.offset) / unit.factor
+    kept = f"{quoted(column)}!={stored:.10g}"
+    where = view.prepared.settings.where
+    do = (
+        f"if it marks missing values, leave these samples out with "
+        f"{option('where', kept if where is None else f'({where}) and {kept}')}"
+    )
+    samples = "1 sample" if count == 1 else f"{count} samples"
+    said = f"'{column}' is {value:.4g} degC in {samples}, which no joint has"
+    return Check("temperature", False, said, do, trustable=value >= ABSOLUTE_ZERO)
 
 
 def _remedy(view: View, low: float, high: float) -> str:
