@@ -18,7 +18,7 @@ from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.outputs import FOLDER, MODEL, PAGE
 from stribeck.cli.terminal import on_stderr, stderr_is_terminal
 from stribeck.diagnosis.result import Finding
-from stribeck.fitting.evaluate import evaluate, refuse_other_joint
+from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.model_file import ModelFile
@@ -194,7 +194,6 @@ def is_model_file(argument: str) -> bool:
 def stored_model(path: str, recording: Recording) -> Fit:
     """A model file on a recording, unchanged."""
     stored = read_model_file(path)
-    refuse_other_joint(stored.model, recording)
     return evaluate(
         stored.model,
         recording,

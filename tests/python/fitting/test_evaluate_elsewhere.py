@@ -21,6 +21,13 @@ def test_another_kind_of_joint_is_refused() -> None:
     fitted = sb.fit("coulomb", linear, starts=1)
     with pytest.raises(sb.FitError, match="it is a model of another kind of joint"):
         evaluated_on(fitted, [turning])
+    for call in (sb.evaluate, lambda model, recording: sb.compare([fitted], recording)):
+        with pytest.raises(sb.FitError, match="another kind of joint; give one in N m and rad"):
+            call(fitted.model, turning)
+    with pytest.raises(sb.FitError, match="another kind of joint; give one in N and m"):
+        sb.evaluate(sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5), linear)
+    with pytest.raises(sb.FitError, match="another kind of joint"):
+        fitted.predict(turning)
 
 
 def test_a_model_with_given_values_is_not_said_to_be_fitted() -> None:
