@@ -11,7 +11,15 @@ from dataclasses import dataclass
 from stribeck import _core
 from stribeck.base.errors import RecordingError, nearest
 
-__all__ = ["CHANNEL_POWERS", "SI", "Unit", "find_unit", "known_units", "parse_unit"]
+__all__ = [
+    "ABSOLUTE_ZERO",
+    "CHANNEL_POWERS",
+    "SI",
+    "Unit",
+    "find_unit",
+    "known_units",
+    "parse_unit",
+]
 
 
 @dataclass(frozen=True)
@@ -52,6 +60,10 @@ for _row in _TABLE["units"]:
     for _name in _row["spellings"]:
         _EXACT[_tidy(_name)] = _unit
         _FOLDED.setdefault(_tidy(_name).casefold(), []).append(_unit)
+
+
+#: The lowest temperature, degC.
+ABSOLUTE_ZERO = _EXACT["K"].offset
 
 
 def known_units(dimensions: tuple[str, ...] | None = None) -> list[str]:

@@ -18,7 +18,7 @@ from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.outputs import FOLDER, MODEL, PAGE
 from stribeck.cli.terminal import on_stderr, stderr_is_terminal
 from stribeck.diagnosis.result import Finding
-from stribeck.fitting.evaluate import evaluate, refuse_other_joint
+from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.model_file import ModelFile
@@ -159,6 +159,10 @@ def recording_options(command: Command) -> Command:
     return gathered(command, map(_click_option, table), "reading", build)
 
 
+#: Arguments of the options that only a command which reads and fits DATA reads.
+OF_DATA = ("starts", *(entry.name for entry in TABLE if entry.command_line))
+
+
 def read_recording(path: Given, reading: ReadOptions) -> Recording:
     """Read the recording of one joint from one or several files, and print its notes on stderr."""
     recording = read_with(path, reading)
@@ -178,7 +182,7 @@ def _of_checks(recording: Recording) -> Iterator[str]:
     for check in recording.checks:
         if check.is_open:
             yield check.said + (f"; {check.do}" if check.do else "")
-        elif not check.ok and recording.trusted:
+        elif not check.ok and check.trustable and recording.trusted:
             yield f"accepted with --trust: {check.said}"
 
 
@@ -190,7 +194,6 @@ def is_model_file(argument: str) -> bool:
 def stored_model(path: str, recording: Recording) -> Fit:
     """A model file on a recording, unchanged."""
     stored = read_model_file(path)
-    refuse_other_joint(stored.model, recording)
     return evaluate(
         stored.model,
         recording,

@@ -27,6 +27,7 @@ from stribeck.cli.motion import (
 )
 from stribeck.cli.options import Values
 from stribeck.cli.outputs import FIGURE, CheckedCommand
+from stribeck.cli.unread import refuse_unread
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
@@ -40,6 +41,10 @@ from stribeck.motion.simulate.acting import take_apart
 from stribeck.passivity.operating_box import parse_sides
 
 LARGEST = "largest"
+#: Options of the controller, which a hand replaces.
+CONTROLLER = dict.fromkeys(
+    ("observer", "bandwidth", "kp", "ki", "gain", "picture"), "without it, with the controller"
+)
 
 
 @click.command(cls=CheckedCommand)
@@ -149,8 +154,7 @@ def compensate(
     course: Values = dict(seconds=seconds, step=step, temperature=temperature, encoder=encoder)
     result: Tracking | Teaching
     if guided:
-        if observer is not None or picture is not None:
-            raise SpecError("--observer and --plot need a tracking error: omit --guided")
+        refuse_unread("with --guided", CONTROLLER)
         hand = Guidance.with_bandwidth(path, moved.inertia)
         result = teach(friction, joint, hand, compensators, **course)
     else:
@@ -189,8 +193,7 @@ def _factor(
     """The factor, as given or as proved."""
     if text == LARGEST:
         return largest_factor(compensator, friction, parse_sides(sides))
-    if sides:
-        raise SpecError("--box belongs to --factor largest: give both or neither")
+    refuse_unread(f"with --factor {text}", {"sides": f"with --factor {LARGEST}"})
     try:
         return float(text)
     except ValueError:
@@ -201,4 +204,6 @@ def _gains(sizes: Values, inertia: float) -> HInfinity:
     """The given gains; the others follow from the bandwidth."""
     usual = HInfinity.with_bandwidth(inertia, sizes["bandwidth"])
     given = {"proportional": sizes["kp"], "integral": sizes["ki"], "gain": sizes["gain"]}
+    if None not in given.values():
+        refuse_unread("with --kp, --ki and --gain", {"bandwidth": "without one of them"})
     return replace(usual, **{name: gain for name, gain in given.items() if gain is not None})

@@ -25,7 +25,7 @@ from stribeck.report.diagnosis import indistinguishable_sentence, untestable_tex
 from stribeck.report.improvement import improvement_bars, summary_sentence
 from stribeck.report.layout import paragraph, table
 from stribeck.report.numbers import confidence_words, listed, plain, unit_text, with_error
-from stribeck.report.recording import held_out_meaning
+from stribeck.report.recording import blocks_meaning
 
 BASE = "coulomb"
 
@@ -131,7 +131,7 @@ def _compared(base: Fit, improvement: Improvement) -> str:
     )
     if base.rmse_held_out is not None:
         text += (
-            f"The held-out error ({held_out_meaning(base.recording)}) is "
+            f"The held-out error ({blocks_meaning(base.recording)}) is "
             f"{plain(base.rmse_held_out)} {unit} RMSE. "
         )
         floor = improvement.noise_floor.value

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import click
 
-from stribeck.base.errors import SpecError
 from stribeck.cli.options import Command, Values, gathered
+from stribeck.cli.unread import refuse_unread
 from stribeck.identify.estimates import ERRORS, Errors
 from stribeck.identify.uncertainty import RESAMPLES
 
@@ -19,22 +19,11 @@ class ErrorChoice:
     errors: Errors
     resamples: int | None
 
-    def __post_init__(self) -> None:
-        if self.resamples is not None and self.errors != "bootstrap":
-            raise SpecError("--resamples belongs to --errors bootstrap: give both or neither")
-
     @property
     def options(self) -> Values:
         """As keyword arguments of `stribeck.fit`."""
         resamples = RESAMPLES if self.resamples is None else self.resamples
         return {"errors": self.errors, "resamples": resamples}
-
-    def refuse(self, method: str) -> None:
-        """Refuse a choice beside a method that has standard errors of its own."""
-        if self.errors != "robust" and method != "rms":
-            raise SpecError(
-                f"--errors {self.errors} goes with --method rms, not {method}: omit one"
-            )
 
 
 def error_options(command: Command) -> Command:
@@ -43,6 +32,8 @@ def error_options(command: Command) -> Command:
 
 
 def _choice(values: Values) -> ErrorChoice:
+    if values["errors"] != "bootstrap":
+        refuse_unread(f"with --errors {values['errors']}", {"resamples": "with --errors bootstrap"})
     return ErrorChoice(values.pop("errors"), values.pop("resamples"))
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import click
 
-from stribeck.base.errors import SpecError
 from stribeck.cli.choices import per_run_option
 from stribeck.cli.common import (
     echo_result,
@@ -30,6 +29,7 @@ from stribeck.cli.outputs import CheckedCommand
 from stribeck.cli.pages import fit_report
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.streaming import Streaming, save_streamed, show, stream_options
+from stribeck.cli.unread import refuse_unread
 from stribeck.cli.words import complete_model
 from stribeck.fitting.evaluate import evaluated_on
 from stribeck.identify.scaling import model_for
@@ -101,8 +101,7 @@ def fit(
             save_streamed(streamed, output)
         show(streamed, as_json)
         return
-    _check_method(method.name, passive=passive, per_run=bool(per_run))
-    errors.refuse(method.name)
+    refuse_unread("without --stream", {"sample_rows": "with it"})
     recording, others = read_recording(data, reading), judged(evaluate, reading)
     if method.name == "rms":
         fitted = written_fit(
@@ -138,11 +137,3 @@ def _in_passes(
             seed=seed,
             **written.choices.arguments(),
         )
-
-
-def _check_method(method: str, **given: bool) -> None:
-    """Refuse options of the least-squares fit beside another method."""
-    for name, is_given in given.items():
-        if is_given and method != "rms":
-            flag = "--" + name.replace("_", "-")
-            raise SpecError(f"{flag} goes with --method rms, not {method}: omit one")

@@ -21,6 +21,7 @@ from stribeck.cli.flags import with_flags
 from stribeck.cli.outputs import FIGURE, PAGE, CheckedCommand
 from stribeck.cli.progress import Progress, stop_with
 from stribeck.cli.refused import OF_A_FLEET, refusing
+from stribeck.cli.unread import refuse_unread
 from stribeck.identify.choices import Choices
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.fleet.changes import Question
@@ -153,6 +154,7 @@ def fleet(
     that cannot be used are reported and skipped; the exit code is 2 only if none can be used.
     """
     files, model = split_one(files, "--model", model, checked=False)
+    _refuse_unread(model, since, scheduler)
     since_day = None if since is None else since.date()
     question = Question(since_day, window, history, false_discovery, least_change)
     with Progress("tasks") as bar:
@@ -180,6 +182,16 @@ def fleet(
             stop_with(bar, "the fleet", output)
     _write_pictures(result, picture, report)
     echo_result(result, as_json)
+
+
+def _refuse_unread(model: str | None, since: datetime | None, scheduler: str | None) -> None:
+    """Refuse options that have no effect beside others."""
+    if model not in (None, IMPROVE):
+        refuse_unread(f"with the model {model}", {"base": f"with --model {IMPROVE}"})
+    if since is not None:
+        refuse_unread("with --since", {"window": "without it"})
+    if scheduler is not None:
+        refuse_unread("with --scheduler", {"workers": "without it"})
 
 
 def _write_pictures(result: Fleet, picture: str | None, report: str | None) -> None:

@@ -9,11 +9,11 @@ from typing import Any
 import click
 import polars as pl
 
-from stribeck.base.errors import SpecError
 from stribeck.base.files import write_table, write_whole
 from stribeck.cli.common import echo_json, json_option, seed_option
 from stribeck.cli.options import Values
 from stribeck.cli.outputs import TABLE, CheckedCommand
+from stribeck.cli.unread import refuse_unread
 from stribeck.motion.generate.files import file_bytes, sidecar_text, write_robot
 from stribeck.motion.generate.hidden import Truth
 from stribeck.motion.generate.hidden import generate as make
@@ -86,10 +86,7 @@ OF_A_ROBOT = ("test", "repeats", "every")
 )
 @seed_option
 @json_option
-@click.pass_context
 def generate(
-    context: click.Context,
-    /,
     output: str,
     robot: str | None,
     rate: float | None,
@@ -102,25 +99,12 @@ def generate(
     The sidecar and the hidden truth (.truth.json) are written beside the recording.
     """
     target = Path(output)
-    _refuse_strangers(context, robot)
     if robot is None:
+        refuse_unread("for a single joint", dict.fromkeys(OF_A_ROBOT, "with --robot"))
         _generate_joint(target, sizes, 200.0 if rate is None else rate, seed, as_json)
     else:
+        refuse_unread(f"with --robot {robot}", dict.fromkeys(OF_A_JOINT, "for a single joint"))
         _generate_robot(target, sizes, RATE if rate is None else rate, seed, as_json)
-
-
-def _refuse_strangers(context: click.Context, robot: str | None) -> None:
-    """Refuse an option of the other kind of recording."""
-    strangers = OF_A_ROBOT if robot is None else OF_A_JOINT
-    for option in context.command.params:
-        source = context.get_parameter_source(option.name or "")
-        if option.name in strangers and source is click.core.ParameterSource.COMMANDLINE:
-            flag = option.opts[0]
-            raise SpecError(
-                f"{flag} needs --robot: add --robot ur5e, or omit {flag}"
-                if robot is None
-                else f"{flag} is for a single joint, not for --robot {robot}: omit one of them"
-            )
 
 
 def _generate_joint(target: Path, sizes: Values, rate: float, seed: int, as_json: bool) -> None:

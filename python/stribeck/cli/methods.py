@@ -21,6 +21,7 @@ from stribeck.cli.evaluation import evaluate_option, judged
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.outputs import MODELS_OF_ARM, POINTS, CheckedCommand
 from stribeck.cli.refused import OF_AN_ARM, OF_POINTS, refusing
+from stribeck.cli.unread import refuse_unread
 from stribeck.fitting.exogenous import ESTIMATORS
 from stribeck.fitting.methods.arm import arm_fit
 from stribeck.fitting.methods.averaging import averaged_points
@@ -53,16 +54,7 @@ class Method:
     estimator: Estimator = "ls"
 
     def __post_init__(self) -> None:
-        if self.grid and self.name != "grid":
-            raise SpecError("--grid belongs to --method grid: give both or neither")
-        if self.estimator != "ls" and self.name != "rms":
-            raise SpecError(f"--estimator iv goes with --method rms, not {self.name}: omit one")
-        given = [self.loaded is not None, self.presliding is not None]
-        if any(given) and self.name != "three_step":
-            raise SpecError(
-                "--loaded and --presliding belong to --method three_step: give it as well"
-            )
-        if not all(given) and self.name == "three_step":
+        if self.name == "three_step" and None in (self.loaded, self.presliding):
             raise SpecError(
                 "--method three_step needs three recordings: DATA without load, --loaded FILE and "
                 "--presliding FILE"
@@ -85,9 +77,25 @@ def method_options(command: Command) -> Command:
     return gathered(command, _METHOD_OPTIONS, "method", _method)
 
 
+#: Options that not every method of `fit` reads, by the method that does.
+_OF_METHODS = {
+    "rms": ("estimator", "passive", "per_run", "errors", "resamples"),
+    "grid": ("grid",),
+    "three_step": ("loaded", "presliding"),
+}
+
+
 def _method(values: Values) -> Method:
+    name = values.pop("method")
+    for reader, options in _OF_METHODS.items():
+        if reader != name:
+            refuse_unread(
+                f"with --method {name}", dict.fromkeys(options, f"with --method {reader}")
+            )
+    if name == "grid":
+        refuse_unread("with --method grid", {"starts": "with --method rms or three_step"})
     return Method(
-        name=values.pop("method"),
+        name=name,
         grid=_axes(values.pop("grid")),
         loaded=values.pop("loaded"),
         presliding=values.pop("presliding"),
@@ -157,6 +165,16 @@ _POINTS: dict[str, Callable[[Recording, int, Search], SteadyPoints | BristleStif
     "presliding": lambda r, bins, search: bristle_stiffness(r),
     "protocols": lambda r, bins, search: protocol_points(r, bins=bins, search=search),
 }
+#: Options that reduce passes, and those of them that other methods read too.
+_OF_PASSES = dict.fromkeys(
+    ("tolerance", "shortest", "trim"), "with --method averaging, segments or protocols"
+)
+_OF_BINS = {"bins": "with --method averaging, segments, coast_down or protocols"}
+_UNREAD = {
+    "breakaway": {**_OF_PASSES, **_OF_BINS},
+    "coast_down": _OF_PASSES,
+    "presliding": {**_OF_PASSES, **_OF_BINS, "output": "with a method that gives points"},
+}
 
 
 @click.command(cls=CheckedCommand)
@@ -222,12 +240,11 @@ def points(
     of each pass at constant speed (Gantry, section 3). `stribeck fit POINTS` then identifies a
     static law. presliding gives a stiffness, and the `--prior` that hands it to a fit.
     """
+    refuse_unread(f"with --method {method}", _UNREAD.get(method, {}))
     # A pass below the velocity threshold still shows in a line through many samples.
     recording = read_recording(data, replace(reading, standstill=True))
     search = Search(tolerance=tolerance, shortest=shortest, trim=trim)
     made = _POINTS[method](recording, bins, search)
-    if output is not None and isinstance(made, BristleStiffness):
-        raise SpecError("--method presliding gives a stiffness and no points: leave out -o")
     if output is not None and isinstance(made, SteadyPoints):
         made.write(output)
         say(f"wrote {output} and {output}.sidecar.toml")

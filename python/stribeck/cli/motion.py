@@ -10,6 +10,7 @@ import click
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import is_model_file
 from stribeck.cli.options import Command, Values, added
+from stribeck.cli.unread import refuse_unread
 from stribeck.models.build import model as named
 from stribeck.models.model import Model
 from stribeck.models.reader import load
@@ -27,6 +28,24 @@ class Usual:
 
 
 USUAL = {"revolute": Usual(1.0, 1.0, 5.0), "prismatic": Usual(0.2, 0.1, 0.5)}
+
+#: Where the options that not every trajectory or joint reads have an effect.
+_STROKE = "with --trajectory quintic or trapezoid"
+_OF_TRAJECTORIES = {
+    "speed": _STROKE,
+    "dwell": _STROKE,
+    "acceleration": "with --trajectory trapezoid",
+    "period": "with --trajectory fourier",
+}
+_READ = {
+    "quintic": ("speed", "dwell"),
+    "trapezoid": ("speed", "dwell", "acceleration"),
+    "fourier": ("period",),
+}
+_OF_REVOLUTE = dict.fromkeys(("gravity_cos", "gravity_sin"), "with --inertia")
+_OF_PRISMATIC = dict.fromkeys(("gravity", "rotor_inertia", "pitch"), "with --mass")
+#: Arguments of the options of a trajectory.
+OF_A_TRAJECTORY = ("path", "start", "end", *_OF_TRAJECTORIES)
 
 # fmt: off
 value_option = click.option(
@@ -100,14 +119,15 @@ def joint_of(sizes: Values) -> Joint | None:
     screw = (sizes["rotor_inertia"], sizes["pitch"])
     if inertia is not None and mass is not None:
         raise SpecError("--inertia is for a revolute joint, --mass for a prismatic one: give one")
+    if inertia is None and mass is None:
+        refuse_unread("with the rigid body of MODEL", {**_OF_REVOLUTE, **_OF_PRISMATIC})
+        return None
     if mass is None:
-        if screw != (None, None) or sizes["gravity"] != 0.0:
-            raise SpecError("--rotor-inertia, --pitch and --gravity need --mass")
-        if inertia is None:
-            return None
+        refuse_unread("with --inertia", _OF_PRISMATIC)
         return Joint.revolute(
             inertia, gravity_cos=sizes["gravity_cos"], gravity_sin=sizes["gravity_sin"]
         )
+    refuse_unread("with --mass", _OF_REVOLUTE)
     if screw == (None, None):
         return Joint.prismatic(mass, gravity=sizes["gravity"])
     if None in screw:
@@ -122,6 +142,10 @@ def at_the_joint(sizes: Values) -> float:
 
 
 def trajectory_of(sizes: Values, joint: Joint, seed: int) -> Trajectory:
+    """The trajectory that the options describe; those that it does not read are refused."""
+    read = _READ[sizes["path"]]
+    unread = {name: where for name, where in _OF_TRAJECTORIES.items() if name not in read}
+    refuse_unread(f"with --trajectory {sizes['path']}", unread)
     usual = USUAL[joint.kind]
     start = sizes["start"]
     end = start + usual.stroke if sizes["end"] is None else sizes["end"]

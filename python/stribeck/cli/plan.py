@@ -9,6 +9,7 @@ import click
 from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure, write_table
 from stribeck.cli.common import (
+    OF_DATA,
     echo_result,
     is_model_file,
     json_option,
@@ -22,6 +23,7 @@ from stribeck.cli.data import arguments_of, is_data, split_one
 from stribeck.cli.formulas import Written, model_options, written_fit
 from stribeck.cli.outputs import FIGURE, TABLE, CheckedCommand
 from stribeck.cli.refused import OF_A_PLAN, refusing
+from stribeck.cli.unread import refuse_unread
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
@@ -100,7 +102,7 @@ def plan(
     Without data: stribeck plan MODEL.toml.
     """
     limits = position_range(position)
-    joint = _joint(arguments, written, noise, starts=starts, seed=seed, reading=reading)
+    joint = _joint(arguments, written, starts=starts, seed=seed, reading=reading)
     say("note: searching for a motion, some seconds to a minute ...")
     planned = make(
         joint,
@@ -130,7 +132,6 @@ def plan(
 def _joint(
     arguments: tuple[str, ...],
     written: Written,
-    noise: float | None,
     *,
     starts: int,
     seed: int,
@@ -143,13 +144,13 @@ def _joint(
                 f"{arguments[0]} is taken as it is: what is stated about a model is for a fit, so "
                 f"name DATA too, or leave it out"
             )
+        refuse_unread("with a model file alone", dict.fromkeys(OF_DATA, "with DATA"))
         return read_model_file(arguments[0])
     data, model = split_one(arguments, "", None)
     if model is None and not written.laws:
         given = " ".join(data)
         raise SpecError(f"no model is given for {given}: write stribeck plan {given} MODEL")
-    if noise is not None:
-        raise SpecError("--noise is for a model file only: with DATA the noise is estimated")
+    refuse_unread("with DATA, which show the noise", {"noise": "with a model file alone"})
     recording = read_recording(data, reading)
     return written_fit(model, written, recording, starts=starts, seed=seed)
 

@@ -28,6 +28,7 @@ from stribeck.cli.formulas import Written, candidate_option, check_candidates
 from stribeck.cli.outputs import MODEL, CheckedCommand
 from stribeck.cli.pages import diagnosis_report
 from stribeck.cli.refused import OF_A_PROJECT, refusing
+from stribeck.cli.unread import refuse_unread
 from stribeck.identify.choices import Choices
 from stribeck.projects.project import Project
 from stribeck.recording.options import ReadOptions
@@ -170,6 +171,8 @@ def drop(path: str, effect: str, starts: int, seed: int, as_json: bool) -> None:
 @json_option
 def reject(path: str, effect: str, because: str, undo: bool, as_json: bool) -> None:
     """Exclude EFFECT at the current node and at all nodes below it."""
+    if undo:
+        refuse_unread("with --undo", {"because": "without it"})
     with one_writer(path):
         made = Project.open(path)
         _written(made.accept(effect) if undo else made.reject(effect, because), as_json)

@@ -10,6 +10,7 @@ import click
 from stribeck.base.errors import SpecError
 from stribeck.base.replaceable import kind_of
 from stribeck.cli.common import (
+    OF_DATA,
     echo_json,
     json_option,
     model_fit,
@@ -23,6 +24,7 @@ from stribeck.cli.data import arguments_of_both, split
 from stribeck.cli.outputs import PAGE, CheckedCommand
 from stribeck.cli.pages import write_account
 from stribeck.cli.refused import OF_A_SPEC, refusing
+from stribeck.cli.unread import refuse_unread
 from stribeck.diagnosis.compare import compare
 from stribeck.diagnosis.loop.improve import improve
 from stribeck.fitting.result import Fit
@@ -76,6 +78,7 @@ def report(
     if is_project(arguments[0]):
         if len(arguments) > 1 or specs:
             raise SpecError("a project has its models: name no other data or models beside it")
+        refuse_unread("for a project, which has its data", dict.fromkeys(OF_DATA, "with DATA"))
         made = _of_project(arguments[0], path, seed)
     else:
         made = _of_data(arguments, specs, reading, path, starts=starts, seed=seed)

@@ -9,6 +9,7 @@ import click
 from stribeck.base.errors import SpecError, listed
 from stribeck.cli.common import echo_result, json_option, say, seed_option
 from stribeck.cli.outputs import DESCRIPTION, CheckedCommand
+from stribeck.cli.unread import refuse_unread
 from stribeck.exporters.robot.export import export_robot
 from stribeck.robot.coupled import coupled
 from stribeck.robot.describe import read_robot
@@ -82,6 +83,7 @@ def export(
         echo_result(written, as_json)
         return
     assert output is not None
+    refuse_unread("without --to", dict.fromkeys(("name", "precision"), "with it"))
     shared = [robot.names[k] for k in coupled(robot.coupling)]
     if shared:
         say(

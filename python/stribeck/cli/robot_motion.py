@@ -12,6 +12,7 @@ from stribeck.base.files import write_table
 from stribeck.cli.common import echo_result, json_option, say, seed_option
 from stribeck.cli.outputs import TABLE, CheckedCommand
 from stribeck.cli.plan import position_range
+from stribeck.cli.unread import refuse_unread
 from stribeck.motion.design.motion import Limits
 from stribeck.motion.generate.files import file_bytes
 from stribeck.robot.describe import read_robot
@@ -66,6 +67,7 @@ def simulate(
     """
     arm, friction = read_robot(described), read_friction(described)
     if compensate:
+        refuse_unread("with --compensate", {"noise": "without it"})
         tracked = follow_robot(
             arm,
             friction,
@@ -80,6 +82,7 @@ def simulate(
             _write(tracked.to_frame(), output)
         echo_result(tracked, as_json)
         return
+    refuse_unread("without --compensate", {"bandwidth": "with it"})
     if output is None:
         raise SpecError("nothing would be kept: give the recording to write, -o FILE")
     usual = 200.0 if rate is None else rate

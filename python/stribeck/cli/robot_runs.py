@@ -11,6 +11,7 @@ import click
 from stribeck.cli.common import say
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.progress import RowProgress
+from stribeck.cli.unread import refuse_unread
 from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import ReadOptions
 from stribeck.robot.arm import Robot
@@ -75,6 +76,8 @@ def passes_options(command: Command) -> Command:
 
 
 def _passes(values: Values) -> Passes:
+    if not values["stream"]:
+        refuse_unread("without --stream", {"sample_rows": "with it"})
     return Passes(values.pop("stream"), values.pop("sample_rows"))
 
 

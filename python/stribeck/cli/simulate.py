@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-from click.core import ParameterSource
 
 from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure, write_table
@@ -19,6 +18,7 @@ from stribeck.cli.common import (
     seed_option,
 )
 from stribeck.cli.motion import (
+    OF_A_TRAJECTORY,
     at_the_joint,
     check_joint,
     joint_of,
@@ -30,6 +30,7 @@ from stribeck.cli.motion import (
 )
 from stribeck.cli.options import Values
 from stribeck.cli.outputs import FIGURE, TABLE, CheckedCommand
+from stribeck.cli.unread import refuse_unread
 from stribeck.motion.generate.files import file_bytes
 from stribeck.motion.simulate.acting import take_apart
 from stribeck.motion.simulate.drive import Controller, Drive, Follow, Pull, Torque
@@ -38,9 +39,11 @@ from stribeck.motion.simulate.run import simulate as move
 
 #: Bandwidth of the closed loop of inertia and controller, Hz.
 BANDWIDTH = 5.0
-#: Options that drive the joint without a controller, and those that only a controller reads.
-OPEN_LOOP = ("torque", "spring")
-CLOSED_LOOP = ("trajectory", "to", "kp", "ki", "kd", "bandwidth", "limit", "feedforward")
+#: Options that only a controller on a trajectory reads.
+CLOSED_LOOP = dict.fromkeys(
+    (*OF_A_TRAJECTORY, "kp", "ki", "kd", "bandwidth", "limit", "feedforward"),
+    "with a controller on a trajectory",
+)
 #: Default duration of a push or pull, s.
 SECONDS = 10.0
 
@@ -133,7 +136,6 @@ def simulate(
     asked = model_of(model, values)
     joint = _with_transmission(joint_of(sizes), sizes)
     check_joint(model, asked, joint)
-    _refuse_ignored(sizes)
     drive = _drive(sizes, take_apart(asked, joint).joint, seed)
     if seconds is None and not isinstance(drive, Follow):
         seconds = SECONDS
@@ -175,27 +177,16 @@ def _with_transmission(joint: Joint | None, sizes: Values) -> Joint | None:
     return replace(joint, transmission=apart)
 
 
-def _refuse_ignored(sizes: Values) -> None:
-    """Refuse options of the closed loop beside an open-loop drive, which does not read them."""
-    context = click.get_current_context()
-    alone = next((name for name in OPEN_LOOP if sizes[name] is not None), None)
-    for option in context.command.params if alone is not None else ():
-        name = option.name or ""
-        if name in CLOSED_LOOP and context.get_parameter_source(name) != ParameterSource.DEFAULT:
-            raise SpecError(
-                f"{option.opts[0]} is of the closed loop, and --{alone} drives the joint without "
-                f"one: omit one of them"
-            )
-
-
 def _drive(sizes: Values, joint: Joint, seed: int) -> Drive:
     """The drive of the joint."""
     torque, spring, speed = sizes["torque"], sizes["spring"], sizes["pull_speed"]
     if torque is not None and spring is not None:
         raise SpecError("--torque and --spring exclude each other: give one of them")
     if torque is not None:
+        refuse_unread("with --torque", {**CLOSED_LOOP, "pull_speed": "with --spring"})
         return Torque(torque * at_the_joint(sizes))
     if spring is not None:
+        refuse_unread("with --spring", CLOSED_LOOP)
         if speed is None:
             raise SpecError("--spring needs --pull-speed, the speed of its far end")
         return Pull(spring, speed)
@@ -211,6 +202,8 @@ def _controller(sizes: Values, joint: Joint) -> Controller:
         raise SpecError(f"--bandwidth {sizes['bandwidth']:g}: give a positive number, in Hz")
     frequency = math.tau * sizes["bandwidth"]
     kp, kd = sizes["kp"], sizes["kd"]
+    if kp is not None and kd is not None:
+        refuse_unread("with --kp and --kd", {"bandwidth": "without one of them"})
     return Controller(
         proportional=joint.total_inertia * frequency**2 if kp is None else kp,
         derivative=2.0 * joint.total_inertia * frequency if kd is None else kd,

@@ -20,8 +20,8 @@ from stribeck.models.model import Model
 from stribeck.recording.moves import move_seconds
 from stribeck.recording.recording import Recording
 
-#: The slow speeds must be passed within this time (s) for a lag of some hundredths of a second to
-#: show.
+#: In a tenth of the slow samples the joint must speed up so much, and in a tenth slow down, that it
+#: would pass the slow speeds within this time (s): then a lag of some hundredths of a second shows.
 SLOW_PASS = 2.0
 #: A lag beyond this share of a typical move is none: friction would belong to another move.
 LONGEST = 0.1
@@ -41,12 +41,12 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     slow = facts.speed < SLOW * top
     acceleration = facts.recording.acceleration_smooth[facts.recording.moving]
     faster = (np.sign(facts.velocity) * acceleration)[slow]
-    both = float(np.quantile(faster, 0.9)), float(-np.quantile(faster, 0.1))
-    if SLOW * top <= SLOW_PASS * min(both):
+    up, down = float(np.quantile(faster, 0.9)), float(-np.quantile(faster, 0.1))
+    if SLOW * top <= SLOW_PASS * min(up, down):
         return None
     return Obstacle(
-        f"the joint passes its slow speeds in more than {SLOW_PASS:.0f} s, too slowly to show a "
-        "lag of friction",
+        f"in nine of ten slow samples the joint {'speeds up' if up < down else 'slows down'} too "
+        f"little to pass its slow speeds in {SLOW_PASS:.0f} s, so that no lag of friction shows",
         "add slow passes that speed up and slow down quickly",
     )
 

@@ -12,6 +12,7 @@ from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
 from stribeck.passivity.certificate import Certificate
 from stribeck.passivity.check import check
+from stribeck.passivity.friction import friction_part
 
 #: Torque of the terms of an identified rigid body, in the names of parameters and inputs.
 _TERMS = {
@@ -52,7 +53,9 @@ class About:
     ) -> About:
         """Describe a model; it is checked over its operating box, if it has one."""
         try:
-            certificate = check(model, box)
+            friction, _ = friction_part(model)
+            sides = {name: side for name, side in box.items() if name in friction.core.needs}
+            certificate = check(model, sides)
         except SpecError as error:
             return cls(model, fitted_on, None, str(error))
         return cls(model, fitted_on, certificate)

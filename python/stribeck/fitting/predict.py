@@ -31,9 +31,10 @@ def predicted(model: Model, recording: Recording) -> tuple[Array, Array | None]:
     Raises
     ------
     FitError, RecordingError
-        A channel is missing, the channels contradict each other, or the rigid body would be
-        counted twice.
+        A channel is missing, the channels contradict each other, the rigid body would be counted
+        twice, or the model is of another kind of joint.
     """
+    _refuse_other_joint(model, recording)
     recording.require_consistent()
     check_channels(model, recording)
     if recording.load_torque is not None and model.rigid_body:
@@ -46,3 +47,20 @@ def predicted(model: Model, recording: Recording) -> tuple[Array, Array | None]:
     prediction = problem.predict(model.values)
     refuse_infinite(problem, prediction)
     return prediction, load
+
+
+def _refuse_other_joint(model: Model, recording: Recording) -> None:
+    """Refuse a model of a revolute joint for a prismatic one, and the other way round.
+
+    Raises
+    ------
+    FitError
+        Their positions have different units.
+    """
+    if model.position_unit != recording.position_unit:
+        units = f"{recording.torque_unit} and {recording.position_unit}"
+        raise FitError(
+            f"{model.spec} is in {model.torque_unit} and {model.position_unit}, and "
+            f"{recording.path} in {units}: it is a model of another kind of joint; give one in "
+            f"{units}"
+        )

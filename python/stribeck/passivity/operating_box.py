@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from stribeck.base.errors import SpecError, nearest, option
+from stribeck.base.units import ABSOLUTE_ZERO
 from stribeck.models.model import Model
 
 Box = Mapping[str, tuple[float, float]]
@@ -94,6 +95,27 @@ def check_sides(box: Box) -> None:
         _check_side(name, low, high)
 
 
+def refuse_unread(box: Box, spec: str, reads: Iterable[str]) -> None:
+    """Raise `SpecError` for a given side that is invalid, or that nothing reads.
+
+    Parameters
+    ----------
+    spec
+        The model, as the sentence names it.
+    reads
+        The channels on which it depends.
+    """
+    check_sides(box)
+    read = [name for name in CHANNELS if name in set(reads)]
+    for name, (low, high) in box.items():
+        if name not in read:
+            given = option("box", f"{name}={low:g}:{high:g}")
+            raise SpecError(
+                f"{given} has no effect with {spec}, which depends on {', '.join(read)}, "
+                f"only with a model that depends on {name}: omit it"
+            )
+
+
 def _check_side(name: str, low: float, high: float) -> None:
     if name not in CHANNELS:
         raise SpecError(
@@ -102,5 +124,10 @@ def _check_side(name: str, low: float, high: float) -> None:
         )
     if not (math.isfinite(low) and math.isfinite(high)):
         raise SpecError(f"the box's {name} is {low:g}:{high:g}: give two finite numbers")
+    if name == "temperature" and low < ABSOLUTE_ZERO:
+        raise SpecError(
+            f"the box's temperature is {low:g}:{high:g} degC, below absolute zero: give "
+            f"{ABSOLUTE_ZERO} or more"
+        )
     if low > high:
         raise SpecError(f"the box's {name} is {low:g}:{high:g}: give the lower end first")

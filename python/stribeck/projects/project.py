@@ -182,6 +182,8 @@ class Project(Plotted):
     def add(self, effect: str, *, starts: int = 20, seed: int = 0) -> Project:
         """Add an effect to the current model: a new node, or the existing one.
 
+        A rejection of the effect, here or at an ancestor, is revoked.
+
         Parameters
         ----------
         effect : str
@@ -196,7 +198,8 @@ class Project(Plotted):
         known = self.tree.child(self.current, "add", name)
         if known is not None:
             known.check_formula(effect)
-            return replace(self, current=known.number)
+            tree = self.tree.accepting(self.current, name)
+            return replace(self, tree=tree, current=known.number)
         before = self.fit_of(self.node, seed)
         after = add_to(before, effect, starts=starts, seed=seed)
         asked = self.node.diagnosis.finding(name) if self.node.diagnosis else None
@@ -208,7 +211,8 @@ class Project(Plotted):
             where(name, before, after),
             () if asked is None else asked.ties,
         )
-        return self._with_node("add", found, after)
+        accepting = replace(self, tree=self.tree.accepting(self.current, name))
+        return accepting._with_node("add", found, after)
 
     def drop(self, effect: str, *, starts: int = 20, seed: int = 0) -> Project:
         """Drop an effect of the current model: a new node, or the existing one.
@@ -259,11 +263,7 @@ class Project(Plotted):
         if effect not in rejected:
             known = f"; rejected are {', '.join(rejected)}" if rejected else ""
             raise ProjectError(f"effect {effect!r} is not rejected at node {self.current}{known}")
-        tree = self.tree
-        for node in self.tree.path(self.current):
-            left = {e: why for e, why in node.rejected.items() if e != effect}
-            tree = tree.with_changed(node.number, rejected=left)
-        return replace(self, tree=tree)
+        return replace(self, tree=self.tree.accepting(self.current, effect))
 
     def back(self, node: str | int | None = None) -> Project:
         """Make another node the current one, by number or name; default: the parent.

@@ -67,6 +67,15 @@ class Tree:
         """Effects rejected at a node or its ancestors, with the reasons."""
         return {e: why for node in self.path(number) for e, why in node.rejected.items()}
 
+    def accepting(self, number: int, effect: str) -> Tree:
+        """Return the tree without rejections of an effect at a node and its ancestors."""
+        tree = self
+        for node in self.path(number):
+            if effect in node.rejected:
+                left = {e: why for e, why in node.rejected.items() if e != effect}
+                tree = tree.with_changed(node.number, rejected=left)
+        return tree
+
     def holding(self, fitted: Fit) -> Node | None:
         """The node that stores this fit object, if there is one."""
         return next((node for node in self.nodes if node.kept.holds(fitted)), None)

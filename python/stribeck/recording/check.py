@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 __all__ = ["Check"]
 
@@ -22,12 +22,15 @@ class Check:
         The finding in one sentence, without a full stop.
     do
         The likeliest remedy; None where none is needed.
+    trustable
+        Whether a contradiction may be accepted with trust; what cannot be may not.
     """
 
     check: str
     ok: bool
     said: str
     do: str | None = None
+    trustable: bool = True
 
     @property
     def is_open(self) -> bool:
@@ -36,4 +39,4 @@ class Check:
 
     def to_dict(self) -> dict[str, object]:
         """As JSON."""
-        return asdict(self)
+        return {"check": self.check, "ok": self.ok, "said": self.said, "do": self.do}

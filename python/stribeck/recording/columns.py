@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from stribeck.base.errors import RecordingError, listed, nearest, option
@@ -138,8 +138,15 @@ class _Search:
         self.notes: list[str] = []
 
     def take(self, channel: str, column: str, *, mapped: bool = False) -> None:
-        """Choose a column."""
-        self.chosen[channel] = _choice(self.path, channel, column, self.units, mapped=mapped)
+        """Choose a column; a unit that was given and is not that of its name is noted."""
+        chosen = _choice(self.path, channel, column, self.units, mapped=mapped)
+        self.chosen[channel] = chosen
+        named = _named_unit(column, CHANNELS[channel])
+        if chosen.unit_from == "option" and chosen.unit and named and not _same(chosen.unit, named):
+            self.notes.append(
+                f"'{column}' is read in {chosen.unit.name}, as given, though its name says "
+                f"{named.name}"
+            )
 
     def find(self, channel: str) -> None:
         """Choose the column whose name fits the channel best, if there is one."""
@@ -217,15 +224,23 @@ def _choice(
         what = f"{path}: {option('unit', f'{column}={given}')}"
         unit = parse_unit(given, dimensions, what)
         return Choice(channel, column, unit, "option")
-    parsed = parse_name(column)
-    if parsed.unit is not None and parsed.unit.dimension in dimensions:
-        return Choice(channel, column, parsed.unit, "suffix")
-    carried = file_unit(column)
-    if carried is not None and carried.dimension in dimensions:
-        return Choice(channel, column, carried, "suffix")
+    named = _named_unit(column, dimensions)
+    if named is not None:
+        return Choice(channel, column, named, "suffix")
     if mapped and column not in CHANNELS:
-        _refuse_other_quantity(path, channel, parsed, carried)
+        _refuse_other_quantity(path, channel, parse_name(column), file_unit(column))
     return Choice(channel, column, None, "name")
+
+
+def _named_unit(column: str, dimensions: Sequence[str]) -> Unit | None:
+    """The unit of one of these dimensions that the name of a column says."""
+    units = (parse_name(column).unit, file_unit(column))
+    return next((unit for unit in units if unit is not None and unit.dimension in dimensions), None)
+
+
+def _same(one: Unit, other: Unit) -> bool:
+    """Whether two units are one, in whatever spelling."""
+    return replace(one, name=other.name) == other
 
 
 def _refuse_other_quantity(

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from stribeck.base.errors import RecordingError, option
+from stribeck.recording.arrays import Floats, floats
 from stribeck.recording.channels import Channels
 from stribeck.recording.names import REFERENCE
-from stribeck.recording.recording import Column
+from stribeck.recording.recording import Column, Recording
+from stribeck.recording.settings import Mechanics
 
-__all__ = ["natural_unit", "settle_units"]
+__all__ = ["current_of", "natural_unit", "settle_units"]
 
 _LINEAR = ("m", "m/s", "m/s2")
 _ANGULAR = ("rad", "rad/s", "rad/s2")
@@ -68,6 +70,28 @@ def settle_units(data: Channels) -> tuple[str, str, str]:
     return kind, unit, "m" if kind == "prismatic" else "rad"
 
 
+def current_of(recording: Recording) -> Floats | None:
+    """The current that the torque was computed from, A [n]; None where there was none."""
+    origin = recording.origin
+    if origin is None or origin.settings.mechanics.torque_constant is None:
+        return None
+    mechanics = origin.settings.mechanics
+    if not any(note.endswith(_conversion(mechanics)) for note in origin.notes):
+        return None
+    gain = origin.settings.mechanics.torque_constant * mechanics.gear_ratio
+    if recording.joint_kind == "prismatic" and mechanics.screw_pitch is not None:
+        gain /= mechanics.screw_pitch / (2.0 * np.pi)
+    return floats(recording.torque / gain)
+
+
+def _conversion(mechanics: Mechanics) -> str:
+    """How a current becomes a torque, as a note."""
+    return (
+        f"torque = current * torque constant {mechanics.torque_constant:g} * gear ratio "
+        f"{mechanics.gear_ratio:g}"
+    )
+
+
 def _check_motion(data: Channels, motion: dict[str, str]) -> None:
     """Refuse units of motion that contradict each other or the joint kind that was given."""
     lines = [c for c, u in motion.items() if u in _LINEAR]
@@ -120,10 +144,7 @@ def _current_to_torque(data: Channels, unit: str) -> None:
     choices = data.prepared.choices
     source = f"{choices['current'].source} * {gain:g}"
     data.columns["torque"] = Column.of("torque", source, unit, True, torque)
-    data.notes.append(
-        f"torque = current * torque constant {mechanics.torque_constant:g} * gear ratio "
-        f"{mechanics.gear_ratio:g}"
-    )
+    data.notes.append(_conversion(mechanics))
     choices.setdefault("torque", choices["current"])
 
 

@@ -245,17 +245,17 @@ class Recording(Plotted):
     def require_consistent(self) -> None:
         """Refuse channels that contradict each other, unless the recording was read with trust.
 
-        Raises `RecordingError` with the first contradiction and its likeliest remedy.
+        Raises `RecordingError` with the first contradiction and its likeliest remedy. A temperature
+        below absolute zero is refused with trust too.
         """
-        wrong = [check for check in self.checks if not check.ok]
-        if not wrong or self.trusted:
+        wrong = [c for c in self.checks if not (c.ok or (self.trusted and c.trustable))]
+        if not wrong:
             return
         first, count = wrong[0], len(wrong) - 1
         more = f" ({count} more: `stribeck inspect` lists them)" if count else ""
-        remedy = "" if first.do is None else f": {first.do}; or"
-        raise RecordingError(
-            f"{self.path}: {first.said}{more}{remedy or ':'} go on with {option('trust')}"
-        )
+        trust = f"go on with {option('trust')}" if first.trustable else None
+        remedies = "; or ".join(filter(None, (first.do, trust)))
+        raise RecordingError(f"{self.path}: {first.said}{more}: {remedies}")
 
     @property
     def torque_holds_load(self) -> bool:

@@ -99,6 +99,9 @@ class Whole:
         others = tuple(name for name in names if name not in _MOTION)
         prepared = self._prepared(table, others)
         for name in others:
+            if name == "torque" and name not in prepared.choices:
+                found[name] = self._torque(table, where)
+                continue
             if name not in prepared.choices:
                 raise self._missing(name, where, "")
             found[name], _, _ = channel_values(prepared, name, np.arange(table.height))
@@ -167,6 +170,22 @@ class Whole:
             notes += [note for note in _derive(data, run, names) if note not in notes]
             for name in names:
                 found[name][data.rows] = data.values[name]
+        return found
+
+    def _torque(self, table: pl.DataFrame, where: str) -> Floats:
+        """The torque at the joint that a current makes, [rows]."""
+        prepared = self._prepared(table, ("joint", "run", "current", *_MOTION))
+        found = np.full(table.height, np.nan)
+        for joint in _joints(prepared):
+            name, rows = joint_rows(prepared, joint)
+            settings = prepared.settings.for_joint(name)
+            if "current" not in prepared.choices or settings.mechanics.torque_constant is None:
+                raise self._missing("torque", where, ", and no current with a torque constant")
+            data = Channels(replace(prepared, settings=settings), rows)
+            for channel in ("current", *(c for c in _MOTION if c in prepared.choices)):
+                data.load(channel)
+            settle_units(data)
+            found[rows] = data.values["torque"]
         return found
 
     def _missing(self, name: str, where: str, further: str) -> RecordingError:

@@ -11,7 +11,7 @@ from stribeck.report.layout import joined, line_width, notes_text, paragraph, ta
 from stribeck.report.names import model_names
 from stribeck.report.numbers import percent, plain, signed
 from stribeck.report.parameters import effective_text
-from stribeck.report.recording import REGIMES, file_name, held_out_meaning, scored_sentence
+from stribeck.report.recording import REGIMES, blocks_meaning, file_name, scored_sentence
 from stribeck.report.residual import residual_figure
 
 if TYPE_CHECKING:
@@ -155,7 +155,7 @@ def compared(comparison: Comparison) -> str:
     )
     if all(stored):
         return file
-    fitted = held_out_meaning(comparison.recording)
+    fitted = blocks_meaning(comparison.recording)
     return f"{fitted}; {file}" if any(stored) else fitted
 
 

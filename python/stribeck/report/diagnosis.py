@@ -240,7 +240,7 @@ def errors_sentence(diagnosis: Diagnosis) -> str:
     noise = floor_sentence(diagnosis.noise_floor, f.model.torque_unit)
     if f.rmse_held_out is None:
         return noise
-    meaning = held_out_meaning(f.recording)
+    meaning = held_out_meaning(f)
     return f"Held-out error {plain(f.rmse_held_out)} {f.model.torque_unit} ({meaning}). {noise}"
 
 
@@ -277,10 +277,7 @@ def _structure(left: Unexplained) -> str:
         return "It cannot be estimated from this data how much of the remaining error is noise."
     if left.share == 0.0:
         # The held-out error may still exceed the noise floor, as where a recording is short.
-        return (
-            "No significant structure remains: no function of the recorded channels lowers the "
-            "held-out error."
-        )
+        return "No significant structure remains."
     if not left.is_structure:
         return (
             f"No significant structure remains: {percent(left.share)} of the squared held-out "

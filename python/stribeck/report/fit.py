@@ -136,7 +136,7 @@ def errors_text(fit: Fit) -> str:
     meaning = "root mean square over the scored samples"
     rows = [("error (RMSE)", f"{plain(fit.rmse)} {unit}", meaning)]
     if fit.rmse_held_out is not None:
-        rows.append(("held-out error", f"{plain(fit.rmse_held_out)} {unit}", held_out_meaning(r)))
+        rows.append(("held-out error", f"{plain(fit.rmse_held_out)} {unit}", held_out_meaning(fit)))
     rows += _weighted_rows(fit)
     rows += [
         ("other recording", f"{plain(one.rmse)} {unit}", f"not fitted: {Path(one.file).name}")

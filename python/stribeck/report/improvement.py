@@ -57,7 +57,7 @@ def improvement_text(improvement: Improvement) -> str:
     return joined(
         f"Improving {improvement.base.model.spec} on {file_name(r)}",
         paragraph(summary_sentence(improvement), 0),
-        paragraph(f"Held-out error after each step ({held_out_meaning(r)}):", 0),
+        paragraph(f"Held-out error after each step ({held_out_meaning(final)}):", 0),
         improvement_bars(improvement),
         paragraph(floor_sentence(floor, unit), 0) if floor.value is None else "",
         joined("Found, in this order:", *steps) if steps else "",
@@ -175,15 +175,14 @@ def addition_text(addition: Addition) -> str:
     unit = after.model.torque_unit
     kind, first, second = "error", before.rmse, after.rmse
     if before.rmse_held_out is not None and after.rmse_held_out is not None:
-        kind = f"held-out error ({held_out_meaning(after.recording)})"
+        kind = f"held-out error ({held_out_meaning(after)})"
         first, second = before.rmse_held_out, after.rmse_held_out
     change = f"{percent(abs(1 - second / first))}, from {plain(first)} to {plain(second)} {unit}"
     verdict = f"The {kind} falls by {change}."
-    if second >= first:
-        verdict = (
-            f"The {kind} does not fall: it rises by {change}. The effect does not improve the "
-            f"prediction of held-out data."
-        )
+    if plain(second) == plain(first):
+        verdict = f"The {kind} stays at {plain(first)} {unit}: the effect does not improve it."
+    elif second > first:
+        verdict = f"The {kind} rises by {change}: the effect does not improve it."
     return joined(
         f"{effect} added to {before.model.spec} on {file_name(after.recording)}",
         paragraph(physically(effect, after.model)),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from stribeck.report.numbers import percent, plain, thousands
 
 if TYPE_CHECKING:
+    from stribeck.fitting.result import Fit
     from stribeck.recording.check import Check
     from stribeck.recording.recording import Recording
 
@@ -67,8 +68,15 @@ def scored_sentence(r: Recording) -> str:
     )
 
 
-def held_out_meaning(r: Recording) -> str:
-    """What "held-out" means on this recording."""
+def held_out_meaning(fit: Fit) -> str:
+    """What "held-out" means for a model on its recording."""
+    if fit.outcome == "not refitted":
+        return "the model is taken as it is, nothing is fitted"
+    return blocks_meaning(fit.recording)
+
+
+def blocks_meaning(r: Recording) -> str:
+    """What "held-out" means for models that are fitted to a recording."""
     if r.runs >= 5 and r.block_count == r.runs:
         part = "run"
     elif r.block_count == 10:

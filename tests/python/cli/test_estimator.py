@@ -71,7 +71,7 @@ def test_both_estimators(noisy_file: Path) -> None:
     [
         (("--estimator", "iv"), "name its column with --map reference_position=COLUMN"),
         ((*REFERENCE, "--estimator", "iv", "--passive"), "omit it, or --passive"),
-        (("--estimator", "iv", "--method", "grid"), "--estimator iv goes with --method rms"),
+        (("--estimator", "iv", "--method", "grid"), "--estimator has no effect with --method grid"),
         (("--estimator", "iv", "--stream"), "--estimator needs all samples in memory"),
         (("--estimator", "gmm"), "'gmm' is not one of"),
     ],

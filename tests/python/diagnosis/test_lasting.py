@@ -49,3 +49,17 @@ def test_a_slow_oscillation_lasts(tmp_path: Path) -> None:
     # As a payload swings: its autocovariance is negative a quarter of a second later.
     time = np.arange(ROWS) / RATE
     assert lasting(tmp_path, 4 * NOISE * np.sin(2 * np.pi * 1.7 * time)) > 0.3 * 8.0
+
+
+def test_what_was_not_tested_is_not_denied(tmp_path: Path) -> None:
+    """A pump that turns in one direction passes no state twice, so that no regressor learns."""
+    t = np.arange(12000) / 200.0
+    v = 60.0 + 30.0 * np.sin(2.0 * np.pi * t / 11.0) + 10.0 * np.sin(2.0 * np.pi * t / 3.1)
+    noise = ar1(np.random.default_rng(3), t.size, 0.9, 0.02)
+    torque = 1.0 + 0.02 * v + 0.004 * np.gradient(v, t) + noise + 0.05 * np.sin(t / 7.5)
+    pump = sb.Recording.from_columns(time=t, velocity=v, torque=torque, load_torque=0.0 * t)
+    found = sb.diagnose(sb.fit("coulomb", pump))
+    assert "inertia" in [finding.effect for finding in found.findings]
+    assert found.explainable is None and found.unexplained.where is not None
+    assert "this motion does not tell whether it depends on" in found.unexplained.where
+    assert "no function" not in repr(found)

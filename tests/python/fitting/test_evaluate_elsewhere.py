@@ -21,3 +21,20 @@ def test_another_kind_of_joint_is_refused() -> None:
     fitted = sb.fit("coulomb", linear, starts=1)
     with pytest.raises(sb.FitError, match="it is a model of another kind of joint"):
         evaluated_on(fitted, [turning])
+    for call in (sb.evaluate, lambda model, recording: sb.compare([fitted], recording)):
+        with pytest.raises(sb.FitError, match="another kind of joint; give one in N m and rad"):
+            call(fitted.model, turning)
+    with pytest.raises(sb.FitError, match="another kind of joint; give one in N and m"):
+        sb.evaluate(sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5), linear)
+    with pytest.raises(sb.FitError, match="another kind of joint"):
+        fitted.predict(turning)
+
+
+def test_a_model_with_given_values_is_not_said_to_be_fitted() -> None:
+    t = np.arange(3000) / 100.0
+    r = sb.Recording.from_columns(time=t, velocity=np.cos(t), torque=np.sign(np.cos(t)))
+    known = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    text = repr(sb.evaluate(known, r))
+    assert "held-out error" in text and "the model is taken as it is, nothing is fitted" in text
+    assert "by a model fitted without it" not in text
+    assert "by a model fitted without it" in repr(sb.fit("coulomb", r, starts=1))

@@ -112,6 +112,9 @@ def make_workspace(folder: Path) -> None:
     recording = sb.read(str(folder / "log.csv"))
     fitted = sb.fit("coulomb", recording, starts=1)
     sb.ModelFile.of(fitted).write(folder / "m.toml")
+    sb.model("coulomb+temperature_viscous", a1=0.5, a2=2.0, sv=0.01, kv=0.0).save(
+        folder / "warm.toml"
+    )
     sb.Project.new(folder / "p.toml", folder / "log.csv", "coulomb", starts=1).save()
     (folder / "page.html").write_text("<!doctype html><p>mine</p>")
     (folder / "notes.txt").write_text("mine")

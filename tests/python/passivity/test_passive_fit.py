@@ -146,4 +146,4 @@ def test_command(tmp_path: Path) -> None:
     assert answer["passive"] is True
     assert answer["passive_cost"]["rmse_free"] < answer["rmse"]
     refused = CliRunner().invoke(cli, [*asked, "--method", "grid"])
-    assert "--passive goes with --method rms" in str(refused.exception)
+    assert "--passive has no effect with --method grid" in str(refused.exception)

@@ -71,6 +71,16 @@ def test_a_rejected_effect_is_not_tried_here_and_below(diagnosed: sb.Project) ->
         taken_back.accept("load")
 
 
+def test_an_effect_that_is_added_is_no_longer_rejected(begun: sb.Project) -> None:
+    """The later verdict replaces the earlier one, for a new node and for one that exists."""
+    rejecting = begun.reject("load", "the payload is known").reject("offset")
+    made = rejecting.add("load", starts=1)
+    assert made.tree.rejected(made.current) == {"offset": ""}
+    assert "the payload is known" not in repr(made)
+    again = made.back().reject("load").add("load")
+    assert again.current == made.current and "load" not in again.tree.rejected(made.current)
+
+
 def test_dropping_an_effect_gives_back_the_error_without_it(branched: sb.Project) -> None:
     both = branched.add("offset", starts=2)
     without = both.drop("load", starts=2)

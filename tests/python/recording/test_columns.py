@@ -288,3 +288,14 @@ def test_a_current_is_not_read_as_a_torque(name: str) -> None:
     stated = sb.read(frame, map=[f"torque={name}"], unit=[f"{name}=Nm"])
     by_constant = sb.read(frame, torque_constant=2.0)
     assert by_constant.torque == pytest.approx(2.0 * stated.torque)
+
+
+def test_a_unit_that_contradicts_the_name_of_its_column_is_noted() -> None:
+    t = np.arange(2000) / 100.0
+    frame = pl.DataFrame({"time": t, "X_mm": np.sin(t), "v_mps": np.cos(t), "force_N": np.cos(t)})
+    said = "'X_mm' is read in m, as given, though its name says mm"
+    stated = sb.read(frame, map=["position=X_mm"], unit=["X_mm=m"])
+    assert [note for note in stated.notes if "its name says" in note] == [said]
+    for unit in ([], ["X_mm=mm"], ["v_mps=m/s"], ["X_mm=mm", "force_N=N"]):
+        same = sb.read(frame, map=["position=X_mm"], unit=unit, trust=True)
+        assert not any("its name says" in note for note in same.notes)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.residual.unexplained import Unexplained
@@ -168,3 +169,13 @@ def test_most_of_the_error_in_excluded_samples_is_said() -> None:
     assert "Not judged" not in left_text(Unexplained(0.0, None, excluded=0.5))
     said = left_text(Unexplained(0.0, None, excluded=0.83))
     assert "Not judged are the samples that the fit excludes" in said and "83 %" in said
+
+
+def test_an_effect_that_changes_nothing_does_not_raise_the_error_by_zero() -> None:
+    t = np.arange(3000) / 100.0
+    noise = 0.05 * np.random.default_rng(0).standard_normal(t.size)
+    r = sb.Recording.from_columns(time=t, velocity=np.cos(t), torque=np.sign(np.cos(t)) + noise)
+    fit = sb.fit("coulomb", r, starts=1)
+    text = " ".join(improving.addition_text(sb.Addition("offset", fit, fit)).split())
+    assert "rises" not in text and "falls" not in text
+    assert "stays at" in text and "the effect does not improve it" in text

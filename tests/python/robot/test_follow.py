@@ -160,3 +160,7 @@ def test_the_command_compares_files(tmp_path: Path) -> None:
     assert out.exists()
     nothing = CliRunner().invoke(cli, ["robot", "simulate", str(path)])
     assert "give the recording to write" in str(nothing.exception)
+    noisy = CliRunner().invoke(cli, [*words, "--noise", "0.1"])
+    assert "--noise has no effect with --compensate" in str(noisy.exception)
+    alone = CliRunner().invoke(cli, [*words[:3], "-o", str(out), "--bandwidth", "9"])
+    assert "--bandwidth has no effect without --compensate" in str(alone.exception)

@@ -75,6 +75,10 @@ def test_a_description_is_written_again(fitted: str, tmp_path: Path) -> None:
         (("--to", "fortran", "out"), "to cannot be 'fortran'"),
         (("--to", "c", "out", "--precision", "q31"), "precision cannot be 'q31'"),
         (("--urdf", "pendulum.urdf", "-o", "pendulum.urdf"), "it is an input"),
+        (
+            ("--urdf", "pendulum.urdf", "-o", "new.urdf", "--precision", "f32"),
+            "--precision has no effect without --to, only with it",
+        ),
     ],
 )
 def test_what_is_refused(

@@ -120,7 +120,7 @@ def _unexplained(
     shown = max(share, lasting)
     if shown > STRUCTURE:
         if share <= STRUCTURE:
-            place = _lasting(lasting)
+            place = _lasting(lasting, tested=explained is not None)
         else:
             place = _varying(fit, varying) if varying_share > learned else _place(fit)
         return Unexplained(max(shown, above), place, shown)
@@ -138,18 +138,19 @@ def _varying(fit: Fit, varying: VaryingFriction) -> str:
     )
 
 
-def _lasting(share: float) -> str:
-    return (
-        f"{number(100.0 * share, 2)} % of it lasts longer than the noise of a sensor, "
-        f"but no function of the recorded channels explains it"
-    )
+def _lasting(share: float, *, tested: bool) -> str:
+    """What lasts; a flexible regressor was `tested` on the residual, and learned little of it."""
+    said = f"{number(100.0 * share, 2)} % of it lasts longer than the noise of a sensor, "
+    if tested:
+        return f"{said}but a flexible regressor finds hardly any of it in the recorded channels"
+    return f"{said}and this motion does not tell whether it depends on the recorded channels"
 
 
 def _repeated(fit: Fit, floor: float) -> str:
     return (
         f"repeats of the same state typically differ by only {number(floor, 2)} "
-        f"{fit.model.torque_unit}, but no function of the recorded channels explains the rest "
-        f"(structural vibration, for example)"
+        f"{fit.model.torque_unit}, but a flexible regressor does not find the rest in the recorded "
+        f"channels (structural vibration, for example)"
     )
 
 

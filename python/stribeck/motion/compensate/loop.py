@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from stribeck.motion.simulate.acting import Acting, friction_of, take_apart
 from stribeck.motion.simulate.drive import Controller
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.run import MOST_STEPS, check_positive, column
+from stribeck.motion.simulate.temperature import joint_temperature
 from stribeck.motion.simulate.trajectory import Trajectory
 
 Array = NDArray[np.float64]
@@ -131,6 +133,7 @@ class Bench:
         step: float,
         temperature: ArrayLike | None,
         encoder: float,
+        compensators: Sequence[Compensator],
     ) -> Bench:
         """Check the arguments, and sample the desired motion at each step.
 
@@ -156,7 +159,8 @@ class Bench:
             )
         count = round(steps)
         desired = trajectory(step * np.arange(count, dtype=np.float64))
-        warmth = default_temperature(acting.friction, temperature)
+        others = [compensator.model for compensator in compensators]
+        warmth = joint_temperature(acting.friction, temperature, others)
         return cls(acting, step, encoder, desired, column("temperature", warmth, count))
 
     def run(
@@ -249,14 +253,3 @@ def _gains(controller: Controller) -> dict[str, float]:
         "velocity_weight": controller.velocity_weight,
         "limit": controller.limit,
     }
-
-
-def default_temperature(friction: Model, temperature: ArrayLike | None) -> ArrayLike:
-    """Return the temperature as given, or the middle of the operating box, degC."""
-    if temperature is not None:
-        return temperature
-    if "temperature" in friction.box:
-        return 0.5 * sum(friction.box["temperature"])
-    if "temperature" in friction.core.needs:
-        raise SpecError(f"{friction.spec} depends on the temperature: give it, in degC")
-    return 25.0

@@ -162,6 +162,7 @@ def teach(
         step,
         temperature,
         encoder,
+        compensators,
     )
     hand = Controller(guidance.stiffness, guidance.damping)
     return Teaching(

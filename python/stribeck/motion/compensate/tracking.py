@@ -144,7 +144,7 @@ def compensate(
     >>> known.rmse < 0.2 * without.rmse
     True
     """
-    bench = Bench.of(friction, joint, trajectory, seconds, step, temperature, encoder)
+    bench = Bench.of(friction, joint, trajectory, seconds, step, temperature, encoder, compensators)
     inertia = bench.acting.joint.inertia
     gains = HInfinity.with_bandwidth(inertia) if controller is None else controller
     if observer is not None and not (math.isfinite(observer) and observer > 0.0):

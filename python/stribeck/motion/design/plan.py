@@ -90,7 +90,7 @@ def plan(
     effects = _checked(of.model, separate, show)
     setting = _setting(of, limits, noise, effects)
     samples = _rate(rate, fitted)
-    _check_size(duration, samples)
+    _check_size(duration, samples, ", that of the recording," if rate is None and fitted else "")
     moves = PassMotions(limits, duration)
     families: tuple[Family, ...] = (FourierMotions(limits, duration, samples), moves)
     present = None if fitted is None else problem_of(fitted)
@@ -204,13 +204,17 @@ def _rate(rate: float | None, fitted: Fit | None) -> float:
     return float(rate)
 
 
-def _check_size(duration: float, rate: float) -> None:
+def _check_size(duration: float, rate: float, of: str) -> None:
+    """Refuse a duration or a sampling rate out of range; `of` says whose rate it is."""
     if not SHORTEST <= duration <= LONGEST:
         raise SpecError(
             f"a motion of {duration:g} s is out of range: give {SHORTEST:g} s to {LONGEST:g} s"
         )
     if not 10.0 <= rate <= 1e4:
-        raise SpecError(f"a rate of {rate:g} Hz is out of range: give 10 Hz to 10000 Hz")
+        raise SpecError(
+            f"a rate of {rate:g} Hz{of} is out of range: give 10 Hz to 10000 Hz with "
+            f"{option('rate')}"
+        )
 
 
 def _cosines(

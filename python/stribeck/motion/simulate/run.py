@@ -18,6 +18,7 @@ from stribeck.motion.simulate.acting import Acting, take_apart
 from stribeck.motion.simulate.drive import Drive, Follow, Pull, Torque
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.result import Simulation
+from stribeck.motion.simulate.temperature import joint_temperature
 
 Array = NDArray[np.float64]
 
@@ -64,7 +65,7 @@ def simulate(
         Initial state, rad or m and s; default: that of the trajectory, else 0. The deflection is
         that of the bristle.
     temperature : float or array [steps], optional
-        degC; default: the middle of the operating box of the model.
+        degC, where the model depends on it; default: the middle of the operating box of the model.
     external_torque : float or array [steps]
         Positive in the direction of positive motion, N m or N.
 
@@ -87,7 +88,7 @@ def simulate(
     count = instants.size - 1
     start = _start(drive, position, velocity, deflection)
     columns = _columns(drive, acting.joint, instants, start[0])
-    columns["temperature"] = column("temperature", _temperature(given, temperature), count)
+    columns["temperature"] = column("temperature", joint_temperature(given, temperature), count)
     columns["external"] = column("external torque", external_torque, count)
     return _simulated(given, acting, drive, instants, columns, start)
 
@@ -222,17 +223,6 @@ def column(name: str, values: ArrayLike, count: int) -> Array:
     if not np.isfinite(given).all():
         raise SpecError(f"{name} has values that are not finite")
     return np.full(count, given) if given.ndim == 0 else np.ascontiguousarray(given)
-
-
-def _temperature(model: Model, temperature: ArrayLike | None) -> ArrayLike:
-    """Return the temperature as given, or the middle of the operating box of the model."""
-    if temperature is not None:
-        return temperature
-    if "temperature" not in model.core.needs:
-        return 0.0
-    if "temperature" not in model.box:
-        raise SpecError(f"{model.spec} depends on the temperature: give it, in degC")
-    return 0.5 * sum(model.box["temperature"])
 
 
 def _sizes(joint: Joint, drive: Drive) -> dict[str, float]:

@@ -149,7 +149,7 @@ def validate(
     joint : Joint, optional
         Default: the inertia and gravity identified with the friction.
     horizons : sequence of float
-        Prediction horizons, s.
+        Prediction horizons, s; each is rounded to a whole number of samples.
 
     Raises
     ------
@@ -256,7 +256,9 @@ class _Bench:
 
     def begin(self, rows: NDArray[np.intp]) -> dict[str, Any]:
         """Return the measured state at the first sample, and the external torque."""
-        temperature = self.recording.temperature
+        temperature = None
+        if "temperature" in self.model.core.needs:
+            temperature = self.recording.temperature
         return {
             "position": float(self.position[rows[0]]),
             "velocity": float(self.recording.velocity[rows[0]]),
@@ -276,11 +278,10 @@ class _Bench:
         return moved.instant_position
 
     def growth(self, horizons: Sequence[float]) -> Iterator[Growth]:
-        """Yield the error at each horizon for which the recording is long enough."""
+        """Yield the error at each horizon, a whole number of samples, that the recording has."""
         steps = np.concatenate([np.diff(self.recording.time[rows]) for rows in self.stretches])
         step = float(np.median(steps))
-        for seconds in horizons:
-            ahead = round(seconds / step)
+        for ahead in dict.fromkeys(round(seconds / step) for seconds in horizons):
             ends = [rows[:-ahead] for rows in self.stretches if ahead and rows.size > ahead]
             if not ends:
                 continue
@@ -291,7 +292,7 @@ class _Bench:
             simulated = [self.run(np.arange(k, k + ahead + 1))[-1] for k in starts]
             reached = self.position[starts + ahead]
             yield Growth(
-                seconds=seconds,
+                seconds=round(ahead * step, 9),
                 error=float(np.sqrt(np.mean((np.array(simulated) - reached) ** 2))),
                 way=float(np.sqrt(np.mean((reached - self.position[starts]) ** 2))),
                 starts=starts.size,

@@ -16,7 +16,7 @@ from stribeck.recording.consistency.readings import Source
 from stribeck.recording.prepared import Prepared, columns_of
 from stribeck.recording.recording import Recording
 
-__all__ = ["View"]
+__all__ = ["View", "quoted"]
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ class View:
         """
         column = self.column(channel)
         formula = self.prepared.settings.derive.get(column)
-        inner = f"({formula})" if formula is not None else _quoted(column)
+        inner = f"({formula})" if formula is not None else quoted(column)
         given = option("derive", f"{channel}={form.format(inner)}")
         choice = self.prepared.choices[channel]
         if choice.unit is not None and choice.unit.factor != 1.0 and formula is None:
@@ -121,6 +121,6 @@ class View:
         return given
 
 
-def _quoted(column: str) -> str:
+def quoted(column: str) -> str:
     """A column's name as a formula takes it."""
     return column if column.isidentifier() else f"`{column}`"

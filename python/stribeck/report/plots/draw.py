@@ -11,7 +11,7 @@ from stribeck.base.checks import check_choice, shown
 from stribeck.base.errors import SpecError
 from stribeck.base.files import save_figure
 from stribeck.diagnosis.compare import compare
-from stribeck.fitting.evaluate import evaluate, refuse_other_joint
+from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
@@ -99,7 +99,6 @@ def _fits(
     made: list[Fit] = []
     for one in given:
         if isinstance(one, str) and one.startswith(PREFIX):
-            refuse_other_joint(published(one), recording)
             made.append(evaluate(published(one), recording))
         elif isinstance(one, str):
             made.append(fit(one, recording))

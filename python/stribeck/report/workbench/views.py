@@ -13,6 +13,7 @@ from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.describe import physically
 from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import catalog, effect_ids, law_ids
+from stribeck.passivity.friction import friction_part
 from stribeck.recording.check import Check
 from stribeck.recording.names import CHANNELS
 from stribeck.recording.options import TABLE, ReadOptions
@@ -351,10 +352,13 @@ def _prove(bench: Workbench, joint: Joint | None) -> Values:
     fastest = float(abs(r.velocity).max())
     hardest = float(abs(r.acceleration_smooth).max())
     rows = () if project.diagnosis is None else project.diagnosis.untestable
+    read = friction_part(model)[0].core.needs
     return {
         "certificate": None if joint.certificate is None else certificate_parts(joint.certificate),
         "passive": None if joint.certificate is None else joint.certificate.passive,
-        "box": "\n".join(f"{k}={low:.4g}:{high:.4g}" for k, (low, high) in model.box.items()),
+        "box": "\n".join(
+            f"{k}={low:.4g}:{high:.4g}" for k, (low, high) in model.box.items() if k in read
+        ),
         "unit": r.position_unit,
         "low": typed(-1.0 if r.position is None else float(r.position.min())),
         "high": typed(1.0 if r.position is None else float(r.position.max())),

@@ -178,6 +178,6 @@ def test_files_that_do_not_go_with_the_method_are_refused(files: dict[str, Path]
     assert "needs three recordings" in refused(
         "fit", data, "--model", "tadese_full", "--method", "three_step"
     )
-    assert "belong to --method three_step" in refused(
+    assert "only with --method three_step" in refused(
         "fit", data, "--model", "coulomb", "--loaded", files["loaded"]
     )

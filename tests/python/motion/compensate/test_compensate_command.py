@@ -101,10 +101,10 @@ def test_a_hand_needs_less_with_compensation(files: tuple[Path, Path]) -> None:
     [
         (("--factor", "most"), "give a number from 0 to 1, or largest"),
         (("--factor", "2"), "give 0 to 1"),
-        (("--box", "velocity=-1:1"), "give both or neither"),
+        (("--box", "velocity=-1:1"), "only with --factor largest"),
         (("--kp", "1", "--ki", "1"), "must exceed 2 KI"),
         (("--observer", "0"), "bandwidth is 0 Hz"),
-        (("--guided", "--observer", "5"), "omit --guided"),
+        (("--guided", "--observer", "5"), "--observer has no effect with --guided"),
         (("--guided", "--feedforward"), "use feedback"),
         (("--seconds", "1e12"), "steps: give 1 to"),
         (("--encoder", "-1"), "resolution of the encoder is -1"),

@@ -144,6 +144,17 @@ def test_bad_wishes(plain: sb.Recording, wrong: dict[str, object], word: str) ->
         sb.plan(sb.fit("coulomb", plain), **{**LIMITS, **wrong})
 
 
+def test_slow_data_name_the_rate_to_give() -> None:
+    t = 2.0 * np.arange(500)
+    v = 0.2 * np.cos(0.2 * t)
+    torque = 2.0 * np.sign(v) + 0.05 * np.random.default_rng(0).standard_normal(t.size)
+    slow = sb.Recording.from_columns(time=t, position=np.sin(0.2 * t), velocity=v, torque=torque)
+    fitted, wishes = sb.fit("coulomb", slow, starts=1), {"position": (-1.0, 1.0), "speed": 1.0}
+    said = "rate of 0.5 Hz, that of the recording, is out of range.*with option `rate`"
+    with pytest.raises(sb.SpecError, match=said):
+        sb.plan(fitted, **wishes, acceleration=5.0, show=("stribeck",))
+
+
 def test_a_voltage_on_a_motor_is_refused(plain: sb.Recording) -> None:
     fit = sb.fit("coulomb", plain)
     driven = replace(fit, model=replace(fit.model, drive="voltage"))

@@ -128,8 +128,8 @@ def test_the_command_writes_recording_sidecar_and_truth(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (("--robot", "ur5e", "--law", "lugre"), "--law is for a single joint"),
-        (("--every", 2), "--every needs --robot"),
+        (("--robot", "ur5e", "--law", "lugre"), "--law has no effect with --robot ur5e"),
+        (("--every", 2), "--every has no effect for a single joint"),
     ],
 )
 def test_options_of_the_other_kind_are_refused(tmp_path: Path, words: tuple, sentence: str) -> None:

@@ -133,6 +133,15 @@ def test_a_temperature_is_asked_for():
         sb.simulate(warm, Joint.revolute(0.3), Torque(1.0), seconds=1.0)
 
 
+@pytest.mark.parametrize("temperature", [-273.2, np.full(1000, -300.0)])
+def test_a_temperature_below_absolute_zero_is_refused(temperature: object) -> None:
+    warm = sb.model("coulomb+temperature_dry", a1=0.5, a2=2.0, sd=-0.01, kd=0.0)
+    with pytest.raises(SpecError, match=r"is below absolute zero: give -273\.15 degC"):
+        sb.simulate(warm, Joint.revolute(0.3), Torque(1.0), seconds=1.0, temperature=temperature)
+    with pytest.raises(SpecError, match=r"below absolute zero: give -273\.15 or more"):
+        sb.check(warm, {"velocity": (-1.0, 1.0), "temperature": (-300.0, 20.0)})
+
+
 def test_the_torque_before_a_ball_screw_is_that_of_the_motor():
     """Equation 3 of the gantry paper: the force is 2 pi/p times the torque of the motor."""
     screw = ["--mass", "11.25", "--rotor-inertia", "1.2298e-5", "--pitch", "6.41e-3"]
@@ -152,7 +161,7 @@ def test_the_torque_before_a_ball_screw_is_that_of_the_motor():
 def test_options_of_the_closed_loop_are_refused_beside_a_push(option: tuple[str, ...]) -> None:
     done = run(*COULOMB, "--inertia", "1", "--torque", "12", *option)
     assert isinstance(done.exception, SpecError)
-    assert str(done.exception).startswith(f"{option[0]} is of the closed loop, and --torque")
+    assert str(done.exception).startswith(f"{option[0]} has no effect with --torque")
 
 
 def test_a_bandwidth_of_zero_is_refused() -> None:

@@ -138,3 +138,23 @@ def test_a_constant_torque_leaves_its_relative_error_open(tmp_path):
         found = validate(model, recording, JOINT_ALONE, horizons=(0.3,))
         assert found.to_dict()["position_rmse"] < 1e-3
     assert math.isnan(found.relative_torque_error)
+
+
+def slow_log() -> sb.Recording:
+    """A joint logged every two seconds, with a temperature that its friction does not read."""
+    t = 2.0 * np.arange(400)
+    v = 0.2 * np.cos(0.2 * t)
+    torque = friction().torque(v, dt=2.0)
+    return sb.Recording.from_columns(
+        time=t, position=np.sin(0.2 * t), velocity=v, torque=torque, temperature=20.0 + 0.01 * t
+    )
+
+
+def test_a_horizon_is_said_as_the_samples_that_it_takes() -> None:
+    """At 0.5 Hz, 3 s is rounded to two samples, 4 s."""
+    made = validate(friction(), slow_log(), JOINT_ALONE)
+    assert [growth.seconds for growth in made.growth] == [4.0, 10.0]
+    r = slow_log()
+    assert r.position is not None
+    ways = r.position[2:] - r.position[:-2]
+    assert made.growth[0].way == pytest.approx(np.sqrt(np.mean(ways**2)), rel=0.05)

@@ -148,6 +148,32 @@ def test_fits_refuse_a_contradiction_and_trust_goes_on(write):
     assert sb.fit("coulomb", read(path, unit="velocity=rpm"), starts=1).rmse > 0.0
 
 
+def test_trust_accepts_no_temperature_below_absolute_zero(write):
+    path = write(joint().with_columns(temperature=pl.lit(-700.0)), "cold.parquet")
+    sentence = "'temperature' is -700 to -700 degC, below absolute zero: [^;]*$"
+    for trust in (False, True):
+        with pytest.raises(RecordingError, match=sentence):
+            sb.fit("coulomb", read(path, trust=trust), starts=1)
+
+
+@pytest.mark.parametrize("mark", [-999.0, 9999.0])
+@pytest.mark.parametrize("name", ["temperature", "temp_K"])
+def test_a_mark_of_missing_temperatures_is_told(write, mark, name):
+    """It is left out, and not scaled with the others."""
+    frame = joint().rename({"temperature": name})
+    offset = 273.15 if name == "temp_K" else 0.0
+    marked = pl.when(pl.int_range(pl.len()) % 100 == 7).then(mark).otherwise(pl.col(name) + offset)
+    path = write(frame.with_columns(marked.alias(name)), "marked.csv")
+    check = _check(read(path), "temperature")
+    assert not check.ok and check.trustable == (mark > 0.0)
+    assert f"is {mark - offset:.4g} degC in 20 samples, which no joint has" in check.said
+    do = f'if it marks missing values, leave these samples out with `where="{name}!={mark:g}"`'
+    assert check.do == do
+    assert _check(read(path, where=f"{name}!={mark:g}"), "temperature").ok
+    again = _check(read(path, where="time > 1"), "temperature")
+    assert again.do is not None and f'where="(time > 1) and {name}!={mark:g}"' in again.do
+
+
 def _run(capsys, monkeypatch, *arguments):
     """Exit code, stdout and stderr of a command."""
     monkeypatch.setattr("sys.argv", ["stribeck", *arguments])

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from synthetic import joint
@@ -109,3 +110,35 @@ def test_wrong_lists(files: list[Path]) -> None:
     points = sb.read(files, average="run", rows="all")
     with pytest.raises(sb.RecordingError, match="read the files together"):
         sb.concat([points, points])
+
+
+@pytest.mark.parametrize(
+    ("condition", "alike"),
+    [("torque > 1", "current > 0.05"), ("abs(current) < 0.125", "abs(torque) < 2.5")],
+)
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_a_condition_on_a_torque_from_a_current(
+    tmp_path: Path, kind: str, condition: str, alike: str
+) -> None:
+    """Torque and current are seen when a file is read, and in the recording."""
+    t = np.arange(3000) / 100.0
+    options: dict[str, Any] = {"torque_constant": 0.5, "gear_ratio": 40.0, "joint_kind": kind}
+    if kind == "prismatic":
+        options |= {"screw_pitch": 0.01}
+        effort = 2.0 * np.pi / 0.01
+        condition, alike = (c.replace("torque", f"torque/{effort}") for c in (condition, alike))
+    torque = 2.0 * np.sign(np.sin(t)) + np.sin(t)
+    path = tmp_path / "current.csv"
+    frame = {"time": t, "velocity_radps": np.sin(t), "current": torque / 20.0}
+    pl.DataFrame(frame).write_csv(path)
+    whole = sb.read(path, **options)
+    counts = {sb.read(path, where=c, **options).rows for c in (condition, alike)}
+    counts |= {whole.where(c).rows for c in (condition, alike)}
+    assert len(counts) == 1 and 0 < counts.pop() < whole.rows
+
+
+def test_a_torque_that_was_measured_has_no_current(files: list[Path]) -> None:
+    with pytest.raises(sb.RecordingError, match="the recording has no channel 'current'; it has"):
+        sb.read(files[0]).where("current > 1")
+    with pytest.raises(sb.RecordingError, match="'mean' sees all samples of a file"):
+        sb.read(files[0]).where("velocity > mean(velocity)")
