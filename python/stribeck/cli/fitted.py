@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from stribeck.base.errors import SpecError, nearest
 from stribeck.cli.common import is_model_file, say, stored_model
 from stribeck.cli.formulas import Written
+from stribeck.cli.unread import refuse_unread
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.scaling import model_for
@@ -32,6 +33,9 @@ def fits_of(
     """
     specs: list[str | Model] = [argument for argument in models if not is_model_file(argument)]
     made = [model_for(model, recording) for model in [*specs, *written.by_formula()]]
+    if not made:
+        unread = dict.fromkeys(("loss", "algorithm"), "with a spec")
+        refuse_unread("with model files alone, which are not refitted", unread)
     varied = _varied(per_run, made)
     to_fit = iter(written.choices.applied_to_each(made))
     fits = []

@@ -138,7 +138,9 @@ def slower(frame: pl.DataFrame, times: float) -> pl.DataFrame:
 
 def test_slow_changes_of_speed_show_no_lag(tmp_path: Path) -> None:
     found = answers(tmp_path, slower(joint(), 30.0))
-    assert "speeds up too little" in found["frictional_lag"] and "stribeck" not in found
+    assert (
+        "too little to pass its slow speeds" in found["frictional_lag"] and "stribeck" not in found
+    )
 
 
 def test_a_load_that_never_turns_shows_no_backlash(tmp_path: Path) -> None:

@@ -70,6 +70,8 @@ ROWS: tuple[Row, ...] = (
     (_PLAN.replace("m.toml", "log.csv coulomb") + " --noise 1", "only with a model file alone"),
     ("report p.toml --gear-ratio 2", "--gear-ratio has no effect for a project"),
     ("report p.toml --starts 2", "--starts has no effect for a project"),
+    ("compare log.csv m.toml --loss huber", "has no effect with model files alone, which are not"),
+    ("plot log.csv m.toml -o new.png --algorithm slsqp", "only with a spec: omit --algorithm"),
     ("points log.csv --method breakaway --bins 3", "--bins has no effect with --method breakaway"),
     ("points log.csv --method coast_down --trim 0.1", "only with --method averaging, segments or"),
     ("points log.csv --method presliding --shortest 1", "only with --method averaging"),

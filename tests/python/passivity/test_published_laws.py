@@ -22,7 +22,8 @@ ACTIVE = ("gaz_a", "wolf", "li", "nevmerzhitskiy", "indri_b")
 @pytest.mark.parametrize("law", TABLE_7)
 def test_published_parameters(law: str) -> None:
     model = sb.model(law, **TABLE_7[law])
-    certificate = sb.check(model, BOX)
+    box = {name: side for name, side in BOX.items() if name in model.core.needs}
+    certificate = sb.check(model, box)
     assert certificate.passive is (law not in ACTIVE)
     example = certificate.counterexample
     assert (example is None) is (law not in ACTIVE)

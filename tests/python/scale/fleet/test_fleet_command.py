@@ -98,7 +98,8 @@ def test_wrong_arguments_are_one_line(
 ) -> None:
     if "--scheduler" in words:
         pytest.importorskip("distributed")
-    done = command(logs[0], *words, "-o", tmp_path / "fleet", "--workers", 1)
+    workers = () if "--scheduler" in words else ("--workers", 1)
+    done = command(logs[0], *words, "-o", tmp_path / "fleet", *workers)
     assert done.returncode == 2 and done.stdout == ""
     assert done.stderr.startswith("stribeck: ") and done.stderr.count("\n") == 1
     assert sentence in done.stderr
