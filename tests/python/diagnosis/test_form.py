@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
+import pytest
 import stribeck as sb
+from stribeck.diagnosis.loop import form
 from stribeck.diagnosis.loop.form import OTHER_FORM, of_other_form
 from stribeck.diagnosis.residual.unexplained import Unexplained
+from stribeck.diagnosis.result import Finding
 from synthetic import joint, joint_with_stribeck_curve, motion, record
 
 V = motion()[2]
@@ -40,6 +45,16 @@ def test_an_effect_with_the_form_of_its_law_stays(tmp_path: Path) -> None:
     findings = [step.finding for step in found.steps]
     assert [finding.effect for finding in findings] == ["stribeck"]
     assert of_other_form(findings, found.final, REMAINS, 0) == []
+
+
+def test_an_effect_of_a_channel_of_its_own_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A free function of the load that explains more confirms that friction depends on it."""
+    fitted = sb.fit("coulomb+load+stribeck", record(tmp_path, joint()), starts=1)
+    monkeypatch.setattr(form, "_beyond", lambda *_: 1.0)
+    both = [SimpleNamespace(effect=effect) for effect in ("load", "stribeck")]
+    assert of_other_form(cast("list[Finding]", both), fitted, REMAINS, 0) == ["stribeck"]
 
 
 def test_other_causes_are_not_judged_by_their_form(tmp_path: Path) -> None:
