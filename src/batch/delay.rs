@@ -1,5 +1,6 @@
 //! Delay of a torque, within each segment.
 
+#[cfg(feature = "identify")]
 use core::ops::Range;
 use std::vec::Vec;
 
