@@ -175,7 +175,7 @@ def test_the_command_lists_and_reduces(tmp_path: Path) -> None:
     loops = tmp_path / "loops.csv"
     bench.measured(bench.small_loops(2.5), position=1e-7).write_csv(loops)
     refused = stribeck("points", loops, "--method", "presliding", "-o", points, code=2)
-    assert "gives a stiffness and no points: leave out -o" in refused.stderr
+    assert "-o has no effect with --method presliding" in refused.stderr
     assert "--prior" in stribeck("points", loops, "--method", "presliding").stdout
 
 
