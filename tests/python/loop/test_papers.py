@@ -55,7 +55,7 @@ def test_m_star_is_found_from_m0(tmp_path: Path) -> None:
     assert by_printed_m0 / mean_error >= 6.0
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_comprehensive_friction_is_found_from_lugre(tmp_path: Path) -> None:
     """Quadrant (or load) and temperature are named; the error falls as in the paper's table 1."""
     frame = papers.comprehensive(1)
