@@ -1,6 +1,7 @@
 //! A step terminates and gives finite numbers for any input.
 
-use crate::common::{self, random::hold, random::spread};
+use crate::common;
+use crate::common::random::{hold, spread};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use stribeck::joint::{self, ElasticJoint, ElasticPosture, Joint, Posture, Push, Transmission};

@@ -29,23 +29,18 @@ class Usual:
 
 USUAL = {"revolute": Usual(1.0, 1.0, 5.0), "prismatic": Usual(0.2, 0.1, 0.5)}
 
-#: Where the options that not every trajectory or joint reads have an effect.
-_STROKE = "with --trajectory quintic or trapezoid"
-_OF_TRAJECTORIES = {
-    "speed": _STROKE,
-    "dwell": _STROKE,
-    "acceleration": "with --trajectory trapezoid",
-    "period": "with --trajectory fourier",
+#: Options that not every trajectory reads, and those that do.
+_TRAJECTORIES = {
+    "speed": ("quintic", "trapezoid"),
+    "dwell": ("quintic", "trapezoid"),
+    "acceleration": ("trapezoid",),
+    "period": ("fourier",),
 }
-_READ = {
-    "quintic": ("speed", "dwell"),
-    "trapezoid": ("speed", "dwell", "acceleration"),
-    "fourier": ("period",),
-}
+#: Where the options that not every joint reads have an effect.
 _OF_REVOLUTE = dict.fromkeys(("gravity_cos", "gravity_sin"), "with --inertia")
 _OF_PRISMATIC = dict.fromkeys(("gravity", "rotor_inertia", "pitch"), "with --mass")
 #: Arguments of the options of a trajectory.
-OF_A_TRAJECTORY = ("path", "start", "end", *_OF_TRAJECTORIES)
+OF_A_TRAJECTORY = ("path", "start", "end", *_TRAJECTORIES)
 
 # fmt: off
 value_option = click.option(
@@ -143,8 +138,11 @@ def at_the_joint(sizes: Values) -> float:
 
 def trajectory_of(sizes: Values, joint: Joint, seed: int) -> Trajectory:
     """The trajectory that the options describe; those that it does not read are refused."""
-    read = _READ[sizes["path"]]
-    unread = {name: where for name, where in _OF_TRAJECTORIES.items() if name not in read}
+    unread = {
+        name: f"with --trajectory {' or '.join(readers)}"
+        for name, readers in _TRAJECTORIES.items()
+        if sizes["path"] not in readers
+    }
     refuse_unread(f"with --trajectory {sizes['path']}", unread)
     usual = USUAL[joint.kind]
     start = sizes["start"]

@@ -24,7 +24,7 @@ from stribeck.fitting.result import Fit
 from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
 from stribeck.models.model_file import WITH_MODEL, ModelFile
-from stribeck.passivity.operating_box import refuse_unread
+from stribeck.passivity.operating_box import refuse_unread_sides
 
 Language = Literal["c", "rust", "json"]
 
@@ -128,7 +128,7 @@ def export(
     """
     asked = model if isinstance(model, Model) else model.model
     asked.known_values()
-    refuse_unread(box or {}, asked.spec, asked.friction.core.needs)
+    refuse_unread_sides(box or {}, asked.spec, asked.friction.core.needs)
     about = About.of(asked.friction, _provenance(model), box or {})
     return _export(about, to, precision, Path(folder), name, libm, box or {}, seed)
 

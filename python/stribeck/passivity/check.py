@@ -16,7 +16,7 @@ from stribeck.models.model import Model
 from stribeck.models.model_file import WITH_MODEL
 from stribeck.passivity.certificate import Certificate, Counterexample, Margin
 from stribeck.passivity.friction import friction_part
-from stribeck.passivity.operating_box import Box, operating_box, refuse_unread
+from stribeck.passivity.operating_box import Box, operating_box, refuse_unread_sides
 
 if TYPE_CHECKING:
     from stribeck.passivity.rows import AnswerRow, MarginRow
@@ -82,7 +82,7 @@ def check(model: Model | HasModel, box: Box | None = None) -> Certificate:
     asked = model if isinstance(model, Model) else model.model
     asked.known_values()
     friction, left_out = friction_part(asked)
-    refuse_unread(box or {}, f"the friction of {asked.spec}", friction.core.needs)
+    refuse_unread_sides(box or {}, f"the friction of {asked.spec}", friction.core.needs)
     sides = operating_box(friction, box or {})
     return _certificate(asked, friction, left_out, sides)
 

@@ -95,7 +95,7 @@ def check_sides(box: Box) -> None:
         _check_side(name, low, high)
 
 
-def refuse_unread(box: Box, spec: str, reads: Iterable[str]) -> None:
+def refuse_unread_sides(box: Box, spec: str, reads: Iterable[str]) -> None:
     """Raise `SpecError` for a given side that is invalid, or that nothing reads.
 
     Parameters

@@ -16,7 +16,7 @@ from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
 from stribeck.models.model_file import WITH_MODEL, ModelFile
 from stribeck.passivity.friction import friction_part
-from stribeck.passivity.operating_box import Box, operating_box, refuse_unread
+from stribeck.passivity.operating_box import Box, operating_box, refuse_unread_sides
 
 #: Largest number of evaluations of the friction over a box; takes some seconds.
 BUDGET = 100_000
@@ -116,7 +116,7 @@ def largest_factor(
     resists, _ = friction_part(_checked(resisting))
     lower, upper, exact = _intervals(resists, resisting)
     read = {*cancels.core.needs, *resists.core.needs}
-    refuse_unread(box or {}, f"the friction of {cancels.spec} and {resists.spec}", read)
+    refuse_unread_sides(box or {}, f"the friction of {cancels.spec} and {resists.spec}", read)
     known = {**cancels.box, **resists.box, **(box or {})}
     sides = {**operating_box(cancels, known), **operating_box(resists, known)}
     try:
