@@ -127,10 +127,14 @@ class FixedForm:
         The channel.
     free_functions
         Free functions of that channel on the samples fitted to, arrays [m].
+    alike
+        Effects of that channel, of any form, whose torque may be the one that was identified. They
+        are alternatives where a free function adds to the fixed form.
     """
 
     channel: str
     free_functions: Callable[[Identified], list[Array]]
+    alike: Callable[[Identified], tuple[str, ...]] = lambda _: ()
 
 
 #: What an effect does in a simulated motion.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 
 from stribeck.effect.base import (
     Array,
@@ -19,6 +20,8 @@ from stribeck.effect.facts import RecordingFacts
 
 #: Range of a revolute joint in rad below which gravity is indistinguishable from an offset.
 GRAVITY_RANGE = 0.3
+#: Intervals of the angle, of equally many samples, over which a torque of position is averaged.
+INTERVALS = 40
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
@@ -48,6 +51,22 @@ def _where(before: Identified, after: Identified) -> str:
     )
 
 
+def _alike(fit: Identified) -> tuple[str, ...]:
+    """A spring, where a torque that only rises or only falls with the angle leaves no more."""
+    q, torque, m = fit.recording.position, fit.recording.torque, fit.model
+    if q is None or torque is None or "spring" in m.effects:
+        return ()
+    angle, residual = q[fit.rows], (torque - fit.prediction)[fit.rows]
+    weight = m.value("gravity_cos") * np.cos(angle) + m.value("gravity_sin") * np.sin(angle)
+    parts = np.array_split(np.argsort(angle), INTERVALS)
+    left, curve = (np.array([x[part].mean() for part in parts]) for x in (residual, weight))
+    for rising in (True, False):
+        smooth = scipy.optimize.isotonic_regression(curve + left, increasing=rising).x
+        if np.sum((curve + left - smooth) ** 2) <= np.sum(left**2):
+            return ("spring",)
+    return ()
+
+
 def _functions_of_position(fit: Identified) -> list[Array]:
     q = fit.recording.position
     return [] if q is None else half_waves(q[fit.rows], range(1, 8))
@@ -63,5 +82,5 @@ EFFECT = Effect(
     obstacle=_obstacle,
     where=_where,
     plausible=_plausible,
-    fixed_form=FixedForm("position", _functions_of_position),
+    fixed_form=FixedForm("position", _functions_of_position, _alike),
 )

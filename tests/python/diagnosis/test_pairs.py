@@ -70,3 +70,18 @@ def test_the_loop_finds_both(tmp_path: Path) -> None:
     improved = sb.improve("coulomb", recording)
     assert {step.finding.effect for step in improved.steps} == set(hidden)
     assert improved.last.verdict == "none"
+
+
+@pytest.mark.slow
+def test_the_lag_of_a_thermometer_is_a_pair_with_what_it_delays(tmp_path: Path) -> None:
+    """With the temperature shown, viscous friction predicts the cold start worse than without."""
+    late = ("lagging_thermometer",)
+    case = Case("one", "open_loop", ("temperature_viscous",), 422122000, 1.0, nuisances=late)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    before = sb.fit("coulomb", sb.read(tmp_path / "recording.parquet"))
+    pair = best_pair(before, screenings(before, ("temperature_viscous", "temperature_dry")))
+    assert pair is not None
+    assert (pair.first, pair.second) == ("temperature_viscous", "thermometer_lag")
+    improved = sb.improve("coulomb", before.recording)
+    named = [step.finding.effect for step in improved.steps]
+    assert named == ["temperature_viscous", "thermometer_lag"]

@@ -10,7 +10,7 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop.path import ImprovementPath
-from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings, settled
+from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.trials.imitations import NARROW
 from synthetic import joint, motion, record
@@ -99,20 +99,6 @@ def test_of_ways_that_predict_alike_the_one_with_fewer_parameters_is_taken(
     assert best_of([small, wide], 0.01, 0) is small
     # What it began with is in the model still, and nothing was dropped.
     assert best_of([wide, small], 0.01, 0).dropped == ()
-
-
-def test_ties_among_effects_of_one_model_are_settled(start: ImprovementPath) -> None:
-    path = way(start, "stribeck", "inertia")
-    first = replace(path.steps[0].finding, indistinguishable_from=("inertia",))
-    tied = path.with_instead(first)
-    ended = settled(tied, 0.01, seed=0)
-    assert ended.steps[0].finding.weight == NARROW
-    assert ended.steps[0].finding.indistinguishable_from == ()
-    assert ended.steps[1] is tied.steps[1]
-    # Another tie is outside the model, or it does not pass beside the others.
-    other = path.with_instead(replace(first, indistinguishable_from=("inertia", "load")))
-    assert settled(other, 0.01, seed=0) is other
-    assert settled(tied, 2.0, seed=0) is tied
 
 
 def test_a_proxy_does_not_stay_where_the_loop_began_with_it(tmp_path: Path) -> None:

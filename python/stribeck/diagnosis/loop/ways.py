@@ -103,20 +103,3 @@ def _is_better(way: ImprovementPath, than: ImprovementPath) -> bool:
 def _ends_alike(way: ImprovementPath, other: ImprovementPath) -> bool:
     """Whether two ways end with the same effects."""
     return set(way.current.model.effects) == set(other.current.model.effects)
-
-
-def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
-    """The path without ties of an effect with others that are all in the model too.
-
-    The effect must pass all tests there, beside them, and is no surer than one that stands by
-    little.
-    """
-    inside = {step.finding.effect for step in path.steps}
-    for finding in (step.finding for step in path.steps):
-        ties = finding.indistinguishable_from
-        if not ties or not inside.issuperset(ties):
-            continue
-        stands = judged(finding, path.current, least, seed)
-        if stands is not None:
-            path = path.with_instead(replace(stands, indistinguishable_from=()))
-    return path

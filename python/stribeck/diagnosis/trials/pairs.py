@@ -2,22 +2,26 @@
 
 Each alone is fitted to the torque of both, and predicts no block that it was not fitted to: dry
 friction that falls with the temperature and rises with wear, for example. All pairs are compared by
-their held-out error, linearised, from one set of normal equations.
+their held-out error, linearised, from one set of normal equations. An effect that has no influence
+without another, such as the lag of a thermometer, is identified together with that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base import linear
-from stribeck.diagnosis.trials.screening import ROWS, Screened, problem_of
+from stribeck.diagnosis.trials.screening import ROWS, Screened, problem_of, screened
+from stribeck.diagnosis.trials.trial import try_effect
+from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.identify.normal import NormalEquations
+from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
@@ -33,7 +37,7 @@ RIDGE = 1e-6
 class BestPair:
     """Two effects, ids or formulas, and the relative fall of the held-out RMSE by both.
 
-    The first predicts better alone.
+    The first predicts better alone, or is the one without which the second has no influence.
     """
 
     first: str
@@ -42,7 +46,16 @@ class BestPair:
 
 
 def best_pair(before: Fit, screenings: Mapping[str, Screened]) -> BestPair | None:
-    """The two effects that predict best together, where none predicts nearly as well alone.
+    """The two effects that predict best together, where none predicts nearly as well alone."""
+    alone = max((screening.fall for screening in screenings.values()), default=0.0)
+    pairs = [p for p in _with_dependent(before, screenings) if p.fall >= max(LEAST, RATIO * alone)]
+    linearised = _best_linearised(before, screenings)
+    pairs += [] if linearised is None else [linearised]
+    return max(pairs, key=lambda pair: pair.fall, default=None)
+
+
+def _best_linearised(before: Fit, screenings: Mapping[str, Screened]) -> BestPair | None:
+    """The best pair of effects that act alone as well, by linearised refits.
 
     Effects with a memory of their own, which are screened on other samples, are left out.
     """
@@ -61,6 +74,22 @@ def best_pair(before: Fit, screenings: Mapping[str, Screened]) -> BestPair | Non
         return None
     first, second = sorted(best, key=lambda effect: -alone[effect])
     return BestPair(first, second, pairs[best])
+
+
+def _with_dependent(before: Fit, screenings: Mapping[str, Screened]) -> Iterator[BestPair]:
+    """Each effect that has no influence alone, beside each of those that give it one."""
+    model, recording = before.model, before.recording
+    for second in effect_ids():
+        row = of_catalog(second)
+        if row.shown_beside is None or row.refusal(model, recording) is None:
+            continue
+        for first, screening in screenings.items():
+            if row.refusal(screening.model, recording) is not None:
+                continue
+            both = screened(replace(before, model=screening.model), second)
+            trial = None if both is None else try_effect(before, both)
+            if trial is not None:
+                yield BestPair(first, second, trial.evidence.fall)
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.known_size import has_known_size
+from stribeck.diagnosis.trials.proxies import alike_in_form
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
@@ -199,6 +200,7 @@ def finding_of(
     """The finding that a trial is, indistinguishable from `others`."""
     known = find(trial.effect)
     names = () if known is None else known.alike(before, trial.fit)
+    names = (*names, *alike_in_form(trial.effect, trial.fit))
     alike = tuple(name for name in names if name not in others)
     return Finding(
         effect=trial.effect,

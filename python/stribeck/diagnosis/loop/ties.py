@@ -1,0 +1,140 @@
+"""The ties of the findings, judged again in the last model.
+
+A step states the effects that predict as well as its own beside what was known then. Beside the
+effects of later steps one of them may predict worse, or be in the model itself. Friction may also
+imitate another kind of cause whose formula in the catalog fits worse than its own: there the free
+forms of both are compared.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from stribeck.base.pool import on_threads
+from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from stribeck.diagnosis.loop.provisional import judged
+from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.evidence import Difference, difference, held_out_square
+from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
+from stribeck.diagnosis.trials.imitations import NARROW
+from stribeck.diagnosis.trials.proxies import alike_in_form, fits_exactly
+from stribeck.diagnosis.trials.screening import screened
+from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial, tie_weight, try_effect
+from stribeck.effect.describe import is_friction
+from stribeck.effect.registry import find, of_catalog
+from stribeck.fitting.result import Fit
+from stribeck.models.catalog import effect_ids
+
+#: Share of what an effect explains that the screening of another must promise.
+PROMISE = 0.5
+
+
+def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
+    """The path with the ties that its last model leaves open.
+
+    An effect that loses a tie must pass all tests there, beside the others, and is then no surer
+    than one that stands by little.
+    """
+    with on_threads() as pool:
+        made = pool.map(lambda step: _settled(step, path.current, least, seed), path.steps)
+        for step, finding in zip(path.steps, list(made), strict=True):
+            if finding is not step.finding:
+                path = path.with_instead(finding)
+    return path
+
+
+def _settled(step: ImprovementStep, current: Fit, least: float, seed: int) -> Finding:
+    """The finding of a step with the ties that the model `current` leaves open."""
+    finding = step.finding
+    inside = {*current.model.effects, *current.model.own_effects}
+    ties = [name for name in finding.indistinguishable_from if name not in inside]
+    others = _Others(finding, current, seed)
+    alike = _alike(finding, current)
+    rivals = step.rivals if is_friction(finding.effect) else ()
+    imitated = [name for name in rivals if not is_friction(name) and name not in inside]
+    possible = dict.fromkeys((*ties, *alike, *imitated))
+    weights = {name: 1.0 if name in alike else others.weight(name) for name in possible}
+    left = {name: weight for name, weight in weights.items() if weight >= tie_weight(TIE)}
+    if set(left) == set(finding.indistinguishable_from):
+        return finding
+    if set(left) >= set(finding.indistinguishable_from):
+        share = sum(weight for name, weight in left.items() if name not in ties)
+        weight = finding.weight / (1.0 + share)
+    elif judged(finding, current, least, seed) is not None:
+        weight = max(finding.weight, NARROW) / (1.0 + sum(left.values()))
+    else:
+        left = {**dict.fromkeys(ties, 1.0), **left}
+        weight = finding.weight
+    return replace(finding, weight=weight, indistinguishable_from=tuple(left))
+
+
+def _alike(finding: Finding, current: Fit) -> tuple[str, ...]:
+    """Effects that the last model cannot tell from one, whatever their held-out errors."""
+    known = find(finding.effect)
+    names = () if known is None else known.alike(finding.before, current)
+    return (*names, *alike_in_form(finding.effect, current))
+
+
+@dataclass(frozen=True)
+class _Others:
+    """Other effects in the place of one."""
+
+    finding: Finding
+    current: Fit
+    seed: int
+
+    @cached_property
+    def without(self) -> Fit | None:
+        """The last model without the one."""
+        return fit_without(self.current, self.finding, self.seed)
+
+    def weight(self, effect: str) -> float:
+        """How well another effect predicts: 1 as well, 0 far worse.
+
+        Also 0 where the one has the very form of what is missing, and adds to the other.
+        """
+        by = self._instead(effect)
+        if by is None:
+            return 0.0
+        if fits_exactly(self.finding.effect, self.current) and self._adds_to(by.fit):
+            return 0.0
+        weight = tie_weight(difference(by.fit, self.current).statistic)
+        if is_friction(effect) or not is_friction(self.finding.effect):
+            return weight
+        return max(weight, self._weight_in_free_form(by))
+
+    def _weight_in_free_form(self, by: Trial) -> float:
+        """The same of an effect with a free form, where those of both models have theirs."""
+        other, own = FlexibleRefit.of(by.fit), FlexibleRefit.of(self.current)
+        if other is None or not of_catalog(by.effect).flexible_shape(by.fit):
+            return 0.0
+        current = self.current
+        left = current.weighted(current.held_out_residual[current.rows])
+        change = other.held_out**2 - (left if own is None else own.held_out) ** 2
+        return tie_weight(Difference.of(change).statistic)
+
+    def _instead(self, effect: str) -> Trial | None:
+        """Another effect in the place of the one; None where it explains far less."""
+        without = self.without
+        found = None if without is None else screened(without, effect, seed=self.seed)
+        if without is None or found is None or found.fall < PROMISE * self._needed(without):
+            return None
+        return try_effect(without, found)
+
+    def _needed(self, without: Fit) -> float:
+        """Relative fall of the held-out error that the one brings."""
+        whole, left = (
+            held_out_square(without, self.current),
+            held_out_square(self.current, self.current),
+        )
+        return 1.0 - math.sqrt(left / whole) if whole > left else 0.0
+
+    def _adds_to(self, before: Fit) -> bool:
+        """Whether the one explains more than noise beside the effects of a fit."""
+        effect = before.model.written(self.finding.effect)
+        found = screened(before, effect, seed=self.seed)
+        trial = None if found is None else try_effect(before, found)
+        return trial is not None and trial.evidence.p_value * len(effect_ids()) <= SIGNIFICANCE
