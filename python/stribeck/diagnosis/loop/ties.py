@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from stribeck.base.pool import on_threads
+from stribeck.diagnosis.loop.exchange import PROMISE
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.loop.superfluous import fit_without
@@ -27,9 +28,6 @@ from stribeck.effect.describe import is_friction
 from stribeck.effect.registry import find, of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
-
-#: Share of what an effect explains that the screening of another must promise.
-PROMISE = 0.5
 
 
 def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
@@ -56,7 +54,10 @@ def _settled(step: ImprovementStep, current: Fit, least: float, seed: int) -> Fi
     rivals = step.rivals if is_friction(finding.effect) else ()
     imitated = [name for name in rivals if not is_friction(name) and name not in inside]
     possible = dict.fromkeys((*ties, *alike, *imitated))
-    weights = {name: 1.0 if name in alike else others.weight(name) for name in possible}
+    weights = {
+        name: 1.0 if name in alike else others.weight(name, 0.0 if name in ties else PROMISE)
+        for name in possible
+    }
     left = {name: weight for name, weight in weights.items() if weight >= tie_weight(TIE)}
     if set(left) == set(finding.indistinguishable_from):
         return finding
@@ -91,12 +92,13 @@ class _Others:
         """The last model without the one."""
         return fit_without(self.current, self.finding, self.seed)
 
-    def weight(self, effect: str) -> float:
+    def weight(self, effect: str, promise: float) -> float:
         """How well another effect predicts: 1 as well, 0 far worse.
 
-        Also 0 where the one has the very form of what is missing, and adds to the other.
+        Also 0 where its screening promises less than a share of what the one explains, or where
+        the one has the very form of what is missing, and adds to the other.
         """
-        by = self._instead(effect)
+        by = self._instead(effect, promise)
         if by is None:
             return 0.0
         if fits_exactly(self.finding.effect, self.current) and self._adds_to(by.fit):
@@ -116,11 +118,11 @@ class _Others:
         change = other.held_out**2 - (left if own is None else own.held_out) ** 2
         return tie_weight(Difference.of(change).statistic)
 
-    def _instead(self, effect: str) -> Trial | None:
-        """Another effect in the place of the one; None where it explains far less."""
+    def _instead(self, effect: str, promise: float) -> Trial | None:
+        """Another effect in the place of the one; None where it promises too little."""
         without = self.without
         found = None if without is None else screened(without, effect, seed=self.seed)
-        if without is None or found is None or found.fall < PROMISE * self._needed(without):
+        if without is None or found is None or found.fall < promise * self._needed(without):
             return None
         return try_effect(without, found)
 

@@ -9,6 +9,7 @@ from stribeck.diagnosis.plausibility.carried import Carried, move_of
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
 from stribeck.fitting.fit import fit
+from stribeck.fitting.result import Fit
 from stribeck.identify.effort import QUICK
 from stribeck.identify.scaling import bounds
 from stribeck.models.catalog import effect_row
@@ -19,6 +20,8 @@ FEWEST, LARGE = 3, 0.01
 #: Share of its gain that an effect must keep with the usual value of a shape parameter that ends at
 #: a bound.
 KEPT = 0.5
+#: Starts of a fit with a shape parameter at its usual value: another shape has another minimum.
+STARTS = 3
 
 
 def few_samples(claim: Claim) -> str | None:
@@ -51,22 +54,28 @@ def shape_at_bound(claim: Claim) -> str | None:
 
     The size of an effect is another matter: there the effect is not claimed at all.
     """
-    row = effect_row(claim.effect)
-    if row is None:
-        return None
-    model, estimates = claim.after.model, claim.after.estimates
-    usual = dict(zip(model.names, bounds(model, claim.after.recording)[2], strict=True))
-    for parameter in row["parameters"][1:]:
-        name = parameter["name"]
-        found = estimates.get(name)
-        if found is None or not found.at_bound or found.value == 0.0:
-            continue
-        if _kept(claim, name, float(usual[name])) < KEPT:
+    for name, usual in usual_shape(claim.effect, claim.after).items():
+        if _kept(claim, name, usual) < KEPT:
             return (
-                f"{name} is at its bound {number(found.value)}, and with its usual value "
-                f"{number(float(usual[name]))} most of what the effect gains is lost"
+                f"{name} is at its bound {number(claim.after.model.value(name))}, and with its "
+                f"usual value {number(usual)} most of what the effect gains is lost"
             )
     return None
+
+
+def usual_shape(effect: str, after: Fit) -> dict[str, float]:
+    """The shape parameters of an effect that end at a bound, with their usual values.
+
+    One at 0 switches a part of the effect off.
+    """
+    row = effect_row(effect)
+    names = [] if row is None else [p["name"] for p in row["parameters"][1:]]
+    ends = [name for name in names if name in after.estimates and after.estimates[name].at_bound]
+    ends = [name for name in ends if after.model.value(name) != 0.0]
+    if not ends:
+        return {}
+    usual = dict(zip(after.model.names, bounds(after.model, after.recording)[2], strict=True))
+    return {name: float(usual[name]) for name in ends}
 
 
 def _kept(claim: Claim, name: str, value: float) -> float:
@@ -76,7 +85,7 @@ def _kept(claim: Claim, name: str, value: float) -> float:
         plain = fit(
             after.model,
             after.recording,
-            starts=1,
+            starts=STARTS,
             transient=after.transient,
             effort=QUICK,
             fix={name: value},

@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 #: Least fall of the held-out RMSE by a pair, and least ratio to that by any effect alone.
-LEAST, RATIO = 0.1, 1.5
+LEAST, RATIO = 0.03, 1.5
 #: Share of the samples' number that is added to the normal equations' diagonal.
 RIDGE = 1e-6
 

@@ -33,10 +33,11 @@ STARTS = 6
 STARTS_ON_ALL_ROWS = 3
 #: Samples of a memoryless model, and of the stretch on which a new state is tried.
 ROWS, SAMPLES = 3000, 6000
-#: Steps from each start, and further steps from the best of them.
-FIRST_STEPS, FURTHER_STEPS = 3, 20
-#: The further steps on all samples: the full fit continues from there.
-FURTHER_STEPS_ON_ALL_ROWS = 4
+#: Steps from each start. A start on the plateau of an effect that does not act ends there, so that
+#: a few steps do not show which start leads to the minimum.
+STEPS = 20
+#: On all samples: steps from each start, and from the best of them; the full fit continues there.
+FIRST_STEPS, FURTHER_STEPS = 3, 4
 #: Samples by which a delay is shifted to find the other minima, and how often at most.
 SHIFTS, MOST_SHIFTS = (-2.0, -1.0, 1.0, 2.0), 5
 #: A search ends at a step that predicts a smaller relative fall of the squared error.
@@ -165,12 +166,12 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     at = np.tile(start, (starts if varied.any() else 1, 1))
     for drawn in at[1:]:
         drawn[varied] = space.drawn(start, random)[varied]
-    tried = _steps(problem, at, lower, upper, FIRST_STEPS)
-    best = min(tried, key=lambda search: search.square)
+    tried = _steps(problem, at, lower, upper, STEPS if few else FIRST_STEPS)
+    found = min(tried, key=lambda search: search.square)
     if not nonlinear.any():
-        return best
-    further = FURTHER_STEPS if few else FURTHER_STEPS_ON_ALL_ROWS
-    found = _steps(problem, best.values[None, :], lower, upper, further)[0]
+        return found
+    if not few:
+        found = _steps(problem, found.values[None, :], lower, upper, FURTHER_STEPS)[0]
     is_new_delay = unknown & np.array([name == "delay" for name in problem.model.names])
     if not is_new_delay.any() or problem.model.has_state:
         return found

@@ -9,6 +9,10 @@ import numpy as np
 import scipy
 
 from stribeck.base.errors import StribeckError
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import impossible
+from stribeck.diagnosis.plausibility.shape import KEPT, usual_shape
+from stribeck.diagnosis.plausibility.shape import STARTS as SHAPE_STARTS
 from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence, held_out_square
 from stribeck.diagnosis.trials.screening import STARTS, Screened, extended_model, screened
 from stribeck.diagnosis.visibility.model_space import MOST_ROWS
@@ -16,10 +20,12 @@ from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
+from stribeck.identify.choices import Choices
 from stribeck.identify.effort import FROM_NEARBY, QUICK, THOROUGH
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import catalog
 from stribeck.models.formula_law import effect_name
+from stribeck.models.model import Model
 
 #: An effect is promising from this share of the fall that it must bring.
 PROMISE = 0.5
@@ -100,16 +106,44 @@ def is_promising(found: Screened, least: float) -> bool:
 
 
 def try_effect(before: Fit, promising: Screened) -> Trial | None:
-    """Fit an effect to all samples after its screening; None where that is impossible."""
+    """Fit an effect to all samples after its screening; None where that is impossible.
+
+    A shape parameter that would end at a bound is held at its usual value where the effect then
+    predicts as well, or keeps most of its gain while the values at the bound cannot be right: the
+    recording does not determine the shape.
+    """
+    free = _tried(before, promising.effect, promising.model)
+    usual = {} if free is None else usual_shape(free.effect, free.fit)
+    if free is None or not usual:
+        return free
+    model = Choices(fix=usual).applied(extended_model(before, promising.effect))
+    plain = _tried(before, promising.effect, model, starts=SHAPE_STARTS)
+    if plain is None or _kept(before, plain, free) < KEPT:
+        return free
+    if difference(plain.fit, free.fit).statistic <= SIMPLEST:
+        return plain
+    right, left = (impossible(Claim(t.effect, before, t.fit)) is None for t in (plain, free))
+    return plain if right and not left else free
+
+
+def _kept(before: Fit, plain: Trial, free: Trial) -> float:
+    """Share of the gain of one trial that another brings too."""
+    whole = held_out_square(before, before)
+    gain = whole - held_out_square(free.fit, before)
+    return (whole - held_out_square(plain.fit, before)) / gain if gain > 0.0 else 1.0
+
+
+def _tried(before: Fit, effect: str, model: Model, starts: int = 1) -> Trial | None:
+    """The trial of an effect with a model that has it."""
     try:
         after = fit(
-            promising.model, before.recording, transient=before.transient, effort=QUICK, starts=1
+            model, before.recording, transient=before.transient, effort=QUICK, starts=starts
         )
     except StribeckError:
         return None
     if after.rmse_held_out is None or before.rmse_held_out is None:
         return None
-    return Trial(effect_name(promising.effect), after, evidence(before, after))
+    return Trial(effect_name(effect), after, evidence(before, after))
 
 
 def try_beyond(
