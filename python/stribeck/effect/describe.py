@@ -25,8 +25,18 @@ def where(effect: str, before: Identified, after: Identified) -> str:
     if own is not None:
         found = (f"{n} = {number(after.model.value(n))}" for n in own.names)
         return f"{own.text} fits with {', '.join(found)}"
-    sentence = of_catalog(effect).where(before, after)
+    sentence = of_catalog(effect).where(before, after) + _held(effect, before.model, after.model)
     return sentence if is_friction(effect) else f"this is not friction: {sentence}"
+
+
+def _held(effect: str, before: Model, after: Model) -> str:
+    """Which parameters of an effect are held, though nobody asked for it."""
+    row = effect_row(effect)
+    names = [] if row is None else [parameter["name"] for parameter in row["parameters"]]
+    new = [name for name in names if name in after.limits and name not in before.limits]
+    held = [name for name in new if after.limits[name][0] == after.limits[name][1]]
+    said = " and ".join(f"{name} at {number(after.value(name))}" for name in held)
+    return f". This data does not determine the shape: it is held, {said}" if held else ""
 
 
 def is_friction(effect: str) -> bool:

@@ -62,7 +62,7 @@ class Model(Shown):
     own
         Terms by formula. The first is the law if it has the name of `law`; the others are effects.
     limits
-        Bounds that a user gave, by parameter, not the catalog's; equal ones hold a parameter.
+        Bounds that are not the catalog's, by parameter; equal ones hold a parameter.
     stated
         What else a user stated about parameters.
 

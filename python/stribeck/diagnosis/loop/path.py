@@ -28,7 +28,8 @@ class ImprovementStep:
     Attributes
     ----------
     rivals
-        Other effects that passed the test of evidence beside it, ids or formulas, the best first.
+        Other effects that passed the test of evidence beside it, ids or formulas, the best first;
+        before them what it took the place of.
     """
 
     finding: Finding
@@ -157,7 +158,8 @@ class ImprovementPath:
         )
         weight, names = tied(finding, ties_of(exchange))
         finding = replace(finding, weight=min(weight, exchange.most), indistinguishable_from=names)
-        step = replace(dropped, finding=finding)
+        rivals = tuple(dict.fromkeys((dropped.finding.effect, *dropped.rivals)))
+        step = replace(dropped, finding=finding, rivals=rivals)
         later = [step, *self.steps[place + 1 :]]
         steps = self._refitted(dropped.before, later, by.fit.model, seed)
         effect = dropped.finding.effect

@@ -8,6 +8,7 @@ the best result.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,11 +34,12 @@ STARTS = 6
 STARTS_ON_ALL_ROWS = 3
 #: Samples of a memoryless model, and of the stretch on which a new state is tried.
 ROWS, SAMPLES = 3000, 6000
-#: Steps from each start. A start on the plateau of an effect that does not act ends there, so that
-#: a few steps do not show which start leads to the minimum.
-STEPS = 20
-#: On all samples: steps from each start, and from the best of them; the full fit continues there.
-FIRST_STEPS, FURTHER_STEPS = 3, 4
+#: Steps from each start, and further steps from the best of them.
+FIRST_STEPS, FURTHER_STEPS = 3, 20
+#: The further steps on all samples: the full fit continues from there.
+FURTHER_STEPS_ON_ALL_ROWS = 4
+#: A search whose squared error falls by this share in as many more steps is on its way.
+FALLS = 0.01
 #: Samples by which a delay is shifted to find the other minima, and how often at most.
 SHIFTS, MOST_SHIFTS = (-2.0, -1.0, 1.0, 2.0), 5
 #: A search ends at a step that predicts a smaller relative fall of the squared error.
@@ -166,16 +168,36 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     at = np.tile(start, (starts if varied.any() else 1, 1))
     for drawn in at[1:]:
         drawn[varied] = space.drawn(start, random)[varied]
-    tried = _steps(problem, at, lower, upper, STEPS if few else FIRST_STEPS)
-    found = min(tried, key=lambda search: search.square)
+    tried = _steps(problem, at, lower, upper, FIRST_STEPS)
+    best = [min(tried, key=lambda search: search.square)]
     if not nonlinear.any():
-        return found
-    if not few:
-        found = _steps(problem, found.values[None, :], lower, upper, FURTHER_STEPS)[0]
+        return best[0]
+    if few and not problem.model.memoryless:
+        best += _on_their_way(problem, tried, lower, upper)
+    further = FURTHER_STEPS if few else FURTHER_STEPS_ON_ALL_ROWS
+    went = _steps(problem, np.array([search.values for search in best]), lower, upper, further)
+    found = min(went, key=lambda search: search.square)
     is_new_delay = unknown & np.array([name == "delay" for name in problem.model.names])
     if not is_new_delay.any() or problem.model.has_state:
         return found
     return _across_samples(problem, found, is_new_delay, lower, upper)
+
+
+def _on_their_way(
+    problem: Problem, tried: Sequence[Search], lower: Array, upper: Array
+) -> list[Search]:
+    """The best search whose error still falls, if there is one.
+
+    A start on the plateau where a state has no influence ends there, below those on their way.
+    """
+    at = np.array([search.values for search in tried])
+    later = _steps(problem, at, lower, upper, FIRST_STEPS)
+    falling = [
+        after
+        for before, after in zip(tried, later, strict=True)
+        if after.square < (1.0 - FALLS) * before.square
+    ]
+    return sorted(falling, key=lambda search: search.square)[:1]
 
 
 def _across_samples(

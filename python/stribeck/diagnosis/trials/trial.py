@@ -10,9 +10,9 @@ import scipy
 
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.plausibility.claim import Claim
-from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.plausibility.shape import KEPT, usual_shape
 from stribeck.diagnosis.plausibility.shape import STARTS as SHAPE_STARTS
+from stribeck.diagnosis.plausibility.unresolved import out_of_reach, unresolved
 from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence, held_out_square
 from stribeck.diagnosis.trials.screening import STARTS, Screened, extended_model, screened
 from stribeck.diagnosis.visibility.model_space import MOST_ROWS
@@ -108,22 +108,26 @@ def is_promising(found: Screened, least: float) -> bool:
 def try_effect(before: Fit, promising: Screened) -> Trial | None:
     """Fit an effect to all samples after its screening; None where that is impossible.
 
-    A shape parameter that would end at a bound is held at its usual value where the effect then
-    predicts as well, or keeps most of its gain while the values at the bound cannot be right: the
-    recording does not determine the shape.
+    Where a shape parameter ends at a bound, and the effect then acts within what the recording
+    resolves or beyond what it reaches, that parameter is held at its usual value if the effect
+    keeps most of its gain: the recording does not determine it.
     """
     free = _tried(before, promising.effect, promising.model)
-    usual = {} if free is None else usual_shape(free.effect, free.fit)
-    if free is None or not usual:
+    if free is None or free.evidence.fall <= 0.0:
+        return free
+    usual = usual_shape(free.effect, free.fit)
+    if not usual or not _is_out_of_range(before, free):
         return free
     model = Choices(fix=usual).applied(extended_model(before, promising.effect))
     plain = _tried(before, promising.effect, model, starts=SHAPE_STARTS)
-    if plain is None or _kept(before, plain, free) < KEPT:
+    if plain is None or _is_out_of_range(before, plain) or _kept(before, plain, free) < KEPT:
         return free
-    if difference(plain.fit, free.fit).statistic <= SIMPLEST:
-        return plain
-    right, left = (impossible(Claim(t.effect, before, t.fit)) is None for t in (plain, free))
-    return plain if right and not left else free
+    return plain
+
+
+def _is_out_of_range(before: Fit, trial: Trial) -> bool:
+    claim = Claim(trial.effect, before, trial.fit)
+    return unresolved(claim) is not None or out_of_reach(claim) is not None
 
 
 def _kept(before: Fit, plain: Trial, free: Trial) -> float:
