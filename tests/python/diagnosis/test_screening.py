@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from stribeck.benchmark.cases import Case
 from stribeck.benchmark.generators import GENERATORS
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import is_promising, try_effect
@@ -100,3 +101,14 @@ def test_a_curve_is_found_beside_a_delay() -> None:
     assert found.model.value("delay") == before.model.value("delay")
     trial = try_effect(before, found)
     assert trial is not None and trial.fit.model.value("delay") == pytest.approx(0.03, abs=2e-3)
+
+
+def test_a_start_on_a_plateau_does_not_hide_the_minimum(tmp_path: Path) -> None:
+    """After a few steps a bristle without influence fits better than one on its way."""
+    nuisances = ("velocity_filter", "lagging_thermometer")
+    case = Case("one", "open_loop", ("presliding",), 419106000, 5.0, nuisances=nuisances)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    before = sb.fit("coulomb", sb.read(tmp_path / "recording.parquet"))
+    found = screened(before, "presliding")
+    assert found is not None and found.fall > 0.05
+    assert 1e3 < found.model.value("presliding_stiffness") < 1e5
