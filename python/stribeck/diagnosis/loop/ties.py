@@ -36,20 +36,27 @@ def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
     An effect that loses a tie must pass all tests there, beside the others, and is then no surer
     than one that stands by little.
     """
+    noise = not path.last.unexplained.is_structure
     with on_threads() as pool:
-        made = pool.map(lambda step: _settled(step, path.current, least, seed), path.steps)
+        made = pool.map(lambda step: _settled(step, path.current, noise, least, seed), path.steps)
         for step, finding in zip(path.steps, list(made), strict=True):
             if finding is not step.finding:
                 path = path.with_instead(finding)
     return path
 
 
-def _settled(step: ImprovementStep, current: Fit, least: float, seed: int) -> Finding:
-    """The finding of a step with the ties that the model `current` leaves open."""
+def _settled(step: ImprovementStep, current: Fit, noise: bool, least: float, seed: int) -> Finding:
+    """The finding of a step with the ties that the model `current` leaves open.
+
+    Parameters
+    ----------
+    noise
+        Whether no more than noise remains, so that the forms of effects tell them apart.
+    """
     finding = step.finding
     inside = {*current.model.effects, *current.model.own_effects}
     ties = [name for name in finding.indistinguishable_from if name not in inside]
-    others = _Others(finding, current, seed)
+    others = _Others(finding, current, noise, seed)
     alike = _alike(finding, current)
     rivals = step.rivals if is_friction(finding.effect) else ()
     imitated = [name for name in rivals if not is_friction(name) and name not in inside]
@@ -85,6 +92,7 @@ class _Others:
 
     finding: Finding
     current: Fit
+    noise: bool
     seed: int
 
     @cached_property
@@ -96,12 +104,13 @@ class _Others:
         """How well another effect predicts: 1 as well, 0 far worse.
 
         Also 0 where its screening promises less than a share of what the one explains, or where
-        the one has the very form of what is missing, and adds to the other.
+        no structure remains and the one, which has the very form of what is missing, adds to it.
         """
         by = self._instead(effect, promise)
         if by is None:
             return 0.0
-        if fits_exactly(self.finding.effect, self.current) and self._adds_to(by.fit):
+        exact = self.noise and fits_exactly(self.finding.effect, self.current)
+        if exact and self._adds_to(by.fit):
             return 0.0
         weight = tie_weight(difference(by.fit, self.current).statistic)
         if is_friction(effect) or not is_friction(self.finding.effect):
