@@ -58,7 +58,7 @@ def _alike(fit: Identified) -> tuple[str, ...]:
         return ()
     angle, residual = q[fit.rows], (torque - fit.prediction)[fit.rows]
     weight = m.value("gravity_cos") * np.cos(angle) + m.value("gravity_sin") * np.sin(angle)
-    parts = np.array_split(np.argsort(angle), INTERVALS)
+    parts = np.array_split(np.argsort(angle), min(INTERVALS, angle.size))
     left, curve = (np.array([x[part].mean() for part in parts]) for x in (residual, weight))
     for rising in (True, False):
         smooth = scipy.optimize.isotonic_regression(curve + left, increasing=rising).x

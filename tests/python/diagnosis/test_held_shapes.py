@@ -61,3 +61,14 @@ def test_what_the_user_holds_is_not_said(before: sb.Fit) -> None:
     )
     assert "This data does not determine" in where("stribeck", chosen, held)
     assert "This data does not determine" not in where("stribeck", asked.base, held)
+
+
+def test_bounds_of_the_user_stand(before: sb.Fit) -> None:
+    bounds = {"stribeck_exponent": (0.5, 4.0)}
+    begun = sb.improve(
+        "coulomb+temperature_viscous", before.recording, starts=1, most_steps=0, bounds=bounds
+    )
+    found = screened(begun.base, "stribeck")
+    made = None if found is None else try_effect(begun.base, found)
+    assert made is not None
+    assert made.fit.model.limits["stribeck_exponent"] == (0.5, 4.0)

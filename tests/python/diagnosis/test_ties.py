@@ -91,3 +91,11 @@ def test_a_torque_that_rises_and_falls_again_is_no_spring(tmp_path: Path) -> Non
     wave = spring(tmp_path, 0.8 * np.cos(q) + 0.02 * np.cos(3.0 * q))
     assert not fits_exactly("gravity", wave)
     assert alike_in_form("gravity", wave) == ()
+
+
+def test_fewer_points_than_intervals_are_averaged_one_by_one(tmp_path: Path) -> None:
+    frame = joint(rows=3000)[::100]
+    recording = record(tmp_path, frame, moving_above=0.01)
+    fitted = sb.fit("coulomb+gravity", recording, starts=1)
+    assert fitted.rows.size < 40
+    assert alike_in_form("gravity", fitted) == ()

@@ -137,10 +137,8 @@ class _Others:
 
     def _needed(self, without: Fit) -> float:
         """Relative fall of the held-out error that the one brings."""
-        whole, left = (
-            held_out_square(without, self.current),
-            held_out_square(self.current, self.current),
-        )
+        whole = held_out_square(without, self.current)
+        left = held_out_square(self.current, self.current)
         return 1.0 - math.sqrt(left / whole) if whole > left else 0.0
 
     def _adds_to(self, before: Fit) -> bool:

@@ -110,12 +110,13 @@ def try_effect(before: Fit, promising: Screened) -> Trial | None:
 
     Where a shape parameter ends at a bound, and the effect then acts within what the recording
     resolves or beyond what it reaches, that parameter is held at its usual value if the effect
-    keeps most of its gain: the recording does not determine it.
+    keeps most of its gain: the recording does not determine it. The bounds that a user gave stand.
     """
     free = _tried(before, promising.effect, promising.model)
     if free is None or free.evidence.fall <= 0.0:
         return free
-    usual = usual_shape(free.effect, free.fit)
+    limits = free.fit.model.limits
+    usual = {k: v for k, v in usual_shape(free.effect, free.fit).items() if k not in limits}
     if not usual or not _is_out_of_range(before, free):
         return free
     model = Choices(fix=usual).applied(extended_model(before, promising.effect))
