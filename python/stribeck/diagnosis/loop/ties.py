@@ -19,13 +19,13 @@ from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.loop.superfluous import fit_without
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import Difference, difference, held_out_square
-from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
+from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.imitations import NARROW
-from stribeck.diagnosis.trials.proxies import alike_in_form, fits_exactly
+from stribeck.diagnosis.trials.proxies import alike, fits_exactly
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial, tie_weight, try_effect
 from stribeck.effect.describe import is_friction
-from stribeck.effect.registry import find, of_catalog
+from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
 
@@ -57,12 +57,12 @@ def _settled(step: ImprovementStep, current: Fit, noise: bool, least: float, see
     inside = {*current.model.effects, *current.model.own_effects}
     ties = [name for name in finding.indistinguishable_from if name not in inside]
     others = _Others(finding, current, noise, seed)
-    alike = _alike(finding, current)
+    unknown = alike(finding.effect, finding.before, current)
     rivals = step.rivals if is_friction(finding.effect) else ()
     imitated = [name for name in rivals if not is_friction(name) and name not in inside]
-    possible = dict.fromkeys((*ties, *alike, *imitated))
+    possible = dict.fromkeys((*ties, *unknown, *imitated))
     weights = {
-        name: 1.0 if name in alike else others.weight(name, 0.0 if name in ties else PROMISE)
+        name: 1.0 if name in unknown else others.weight(name, 0.0 if name in ties else PROMISE)
         for name in possible
     }
     left = {name: weight for name, weight in weights.items() if weight >= tie_weight(TIE)}
@@ -79,13 +79,6 @@ def _settled(step: ImprovementStep, current: Fit, noise: bool, least: float, see
     return replace(finding, weight=weight, indistinguishable_from=tuple(left))
 
 
-def _alike(finding: Finding, current: Fit) -> tuple[str, ...]:
-    """Effects that the last model cannot tell from one, whatever their held-out errors."""
-    known = find(finding.effect)
-    names = () if known is None else known.alike(finding.before, current)
-    return (*names, *alike_in_form(finding.effect, current))
-
-
 @dataclass(frozen=True)
 class _Others:
     """Other effects in the place of one."""
@@ -100,6 +93,19 @@ class _Others:
         """The last model without the one."""
         return fit_without(self.current, self.finding, self.seed)
 
+    @cached_property
+    def fits_exactly(self) -> bool:
+        """Whether no structure remains, and the one has the very form of what is missing."""
+        return self.noise and fits_exactly(self.finding.effect, self.current)
+
+    @cached_property
+    def free_square(self) -> Array:
+        """Squared held-out residual [m] of the last model, its effects in their free forms."""
+        current, free = self.current, FlexibleRefit.of(self.current)
+        if free is not None:
+            return free.held_out**2
+        return current.weighted(current.held_out_residual[current.rows]) ** 2
+
     def weight(self, effect: str, promise: float) -> float:
         """How well another effect predicts: 1 as well, 0 far worse.
 
@@ -109,8 +115,7 @@ class _Others:
         by = self._instead(effect, promise)
         if by is None:
             return 0.0
-        exact = self.noise and fits_exactly(self.finding.effect, self.current)
-        if exact and self._adds_to(by.fit):
+        if self.fits_exactly and self._adds_to(by.fit):
             return 0.0
         weight = tie_weight(difference(by.fit, self.current).statistic)
         if is_friction(effect) or not is_friction(self.finding.effect):
@@ -119,13 +124,10 @@ class _Others:
 
     def _weight_in_free_form(self, by: Trial) -> float:
         """The same of an effect with a free form, where those of both models have theirs."""
-        other, own = FlexibleRefit.of(by.fit), FlexibleRefit.of(self.current)
-        if other is None or not of_catalog(by.effect).flexible_shape(by.fit):
+        free = FlexibleRefit.of(by.fit) if of_catalog(by.effect).flexible_shape(by.fit) else None
+        if free is None:
             return 0.0
-        current = self.current
-        left = current.weighted(current.held_out_residual[current.rows])
-        change = other.held_out**2 - (left if own is None else own.held_out) ** 2
-        return tie_weight(Difference.of(change).statistic)
+        return tie_weight(Difference.of(free.held_out**2 - self.free_square).statistic)
 
     def _instead(self, effect: str, promise: float) -> Trial | None:
         """Another effect in the place of the one; None where it promises too little."""

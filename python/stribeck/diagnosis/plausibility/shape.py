@@ -92,8 +92,13 @@ def _kept(claim: Claim, name: str, value: float) -> float:
         )
     except StribeckError:
         return 0.0
+    return share_kept(before, after, plain)
+
+
+def share_kept(before: Fit, after: Fit, plain: Fit) -> float:
+    """Share of the gain of `after` over `before` that `plain` brings too, by held-out errors."""
     squares = [
-        float(np.sum(before.weighted(fitted.held_out_residual[claim.rows]) ** 2))
+        float(np.sum(before.weighted(fitted.held_out_residual[before.rows]) ** 2))
         for fitted in (before, after, plain)
     ]
     gain = squares[0] - squares[1]

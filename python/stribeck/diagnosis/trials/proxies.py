@@ -70,6 +70,13 @@ def _is_proxy(before: Fit, trial: Trial, extra: Array) -> bool:
     return own - left > SHARE * (square(before, constant) - own)
 
 
+def alike(effect: str, before: Fit, after: Fit) -> tuple[str, ...]:
+    """Effects that a recording cannot tell from one in a fit, whatever their held-out errors."""
+    known = find(effect)
+    names = () if known is None else known.alike(before, after)
+    return (*names, *alike_in_form(effect, after))
+
+
 def alike_in_form(effect: str, after: Fit) -> tuple[str, ...]:
     """Effects of any form on the channel of one in a fit, where its form does not fit exactly."""
     form = _fixed_form(effect)

@@ -14,7 +14,7 @@ from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.known_size import has_known_size
-from stribeck.diagnosis.trials.proxies import alike_in_form
+from stribeck.diagnosis.trials.proxies import alike
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
@@ -28,7 +28,6 @@ from stribeck.diagnosis.trials.trial import (
     tie_weight,
 )
 from stribeck.effect.describe import is_friction, where
-from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import simpler_effect
 
@@ -198,19 +197,17 @@ def finding_of(
     before: Fit, trial: Trial, weight: float, others: tuple[str, ...], floor: NoiseFloor
 ) -> Finding:
     """The finding that a trial is, indistinguishable from `others`."""
-    known = find(trial.effect)
-    names = () if known is None else known.alike(before, trial.fit)
-    names = (*names, *alike_in_form(trial.effect, trial.fit))
-    alike = tuple(name for name in names if name not in others)
+    names = alike(trial.effect, before, trial.fit)
+    more = tuple(name for name in names if name not in others)
     return Finding(
         effect=trial.effect,
-        weight=weight / (1 + len(alike)),
+        weight=weight / (1 + len(more)),
         certainty=difference(before, trial.fit).certainty,
         rmse_held_out_before=float(before.rmse_held_out or np.nan),
         rmse_held_out_after=float(trial.fit.rmse_held_out or np.nan),
         share_of_unexplained=share_of_unexplained(before, trial.fit, floor),
         where=where(trial.effect, before, trial.fit),
-        indistinguishable_from=(*others, *alike),
+        indistinguishable_from=(*others, *more),
         fit=trial.fit,
         before=before,
     )

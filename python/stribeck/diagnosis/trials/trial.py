@@ -10,7 +10,7 @@ import scipy
 
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.plausibility.claim import Claim
-from stribeck.diagnosis.plausibility.shape import KEPT, usual_shape
+from stribeck.diagnosis.plausibility.shape import KEPT, share_kept, usual_shape
 from stribeck.diagnosis.plausibility.shape import STARTS as SHAPE_STARTS
 from stribeck.diagnosis.plausibility.unresolved import out_of_reach, unresolved
 from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence, held_out_square
@@ -121,7 +121,11 @@ def try_effect(before: Fit, promising: Screened) -> Trial | None:
         return free
     model = Choices(fix=usual).applied(extended_model(before, promising.effect))
     plain = _tried(before, promising.effect, model, starts=SHAPE_STARTS)
-    if plain is None or _is_out_of_range(before, plain) or _kept(before, plain, free) < KEPT:
+    if (
+        plain is None
+        or _is_out_of_range(before, plain)
+        or share_kept(before, free.fit, plain.fit) < KEPT
+    ):
         return free
     return plain
 
@@ -129,13 +133,6 @@ def try_effect(before: Fit, promising: Screened) -> Trial | None:
 def _is_out_of_range(before: Fit, trial: Trial) -> bool:
     claim = Claim(trial.effect, before, trial.fit)
     return unresolved(claim) is not None or out_of_reach(claim) is not None
-
-
-def _kept(before: Fit, plain: Trial, free: Trial) -> float:
-    """Share of the gain of one trial that another brings too."""
-    whole = held_out_square(before, before)
-    gain = whole - held_out_square(free.fit, before)
-    return (whole - held_out_square(plain.fit, before)) / gain if gain > 0.0 else 1.0
 
 
 def _tried(before: Fit, effect: str, model: Model, starts: int = 1) -> Trial | None:
