@@ -82,13 +82,6 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
     """The ranking, asking this world alone."""
     made = World()
 
-    class Known:
-        def __init__(self, effect: str) -> None:
-            self.effect = effect
-
-        def alike(self, before: Fit, after: Fit) -> tuple[str, ...]:
-            return made.alike[self.effect]
-
     class Judge(Sifted):
         @classmethod
         def of(cls, before: Fit, trials: object, least: float) -> Sifted:
@@ -108,7 +101,7 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
         "has_known_size": lambda effect, fit: effect not in made.of_unknown_size,
         "is_friction": lambda effect: effect in made.friction,
         "where": lambda *rest: "here",
-        "find": lambda effect: Known(effect) if effect in made.alike else None,
+        "alike": lambda effect, before, after: made.alike.get(effect, ()),
         "Sifted": Judge,
     }
     for name, answer in answers.items():
