@@ -8,7 +8,7 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.diagnosis.trials.evidence import evidence
-from stribeck.diagnosis.trials.ranking import ranked
+from stribeck.diagnosis.trials.ranking import OUTSIDE_THE_BAND, ranked
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import TIE, Trial, tie_statistic
 from synthetic import joint, record
@@ -45,3 +45,17 @@ def test_a_much_worse_rival_is_not_named(tmp_path: Path) -> None:
     sift = Sifted((trial,), demoted=(Doubted(rival, "a reason"),))
     (first,) = ranked(before, sift, 20, 0.01, noise_floor(after), 0).findings
     assert first.indistinguishable_from == ()
+
+
+@pytest.mark.parametrize("stands", [False, True])
+def test_what_gains_outside_the_band_is_named_where_nothing_stands(
+    tmp_path: Path, stands: bool
+) -> None:
+    before = sb.fit("coulomb", record(tmp_path, joint(0.5)), starts=1)
+    after = sb.add(before, "offset", starts=1)
+    trial = Trial("offset", after, evidence(before, after))
+    sift = Sifted((trial,) if stands else (), rivals=(trial,))
+    found = ranked(before, sift, 20, 0.01, noise_floor(after), 0)
+    reasons = [(row.effect, row.demoted) for row in found.demoted]
+    assert reasons == ([] if stands else [("offset", OUTSIDE_THE_BAND)])
+    assert bool(found.findings) == stands

@@ -259,9 +259,8 @@ def _stopped(path: ImprovementPath) -> str:
     found = path.last
     if found.findings:
         return "max_steps"
-    noise = not found.unexplained.is_structure and found.noise_floor.is_reached_by(
-        path.current.rmse
-    )
+    is_more = found.unexplained.is_structure or found.has_doubts
+    noise = not is_more and found.noise_floor.is_reached_by(path.current.rmse)
     return "noise_floor" if noise else "nothing_passes"
 
 

@@ -8,14 +8,15 @@ from typing import Protocol
 import numpy as np
 
 from stribeck.base.pool import on_threads
-from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed, impossible
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.proxies import alike
-from stribeck.diagnosis.trials.sifting import Sifted
+from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
     TIE,
@@ -39,6 +40,10 @@ NEGLIGIBLE = 0.005
 #: An effect that explains less than this share of the squared error above the noise floor, and of
 #: that in the band of the motion, is not reported, however significant: much larger causes remain.
 MATERIAL = 0.05
+OUTSIDE_THE_BAND = (
+    "it lowers the error only at frequencies above those of the motion, where vibration and shocks "
+    "raise it too"
+)
 
 
 @dataclass(frozen=True)
@@ -110,13 +115,16 @@ def _none_but_demoted(
 ) -> Ranked:
     """What the rules leave besides the findings that stand.
 
+    Where none stands, also the trials that gain only outside the band of the motion.
+
     Parameters
     ----------
     best, total
         The best trial that stands, if one does, and the weights of those tied with it, summed.
     """
     made = []
-    for trial, reason in ((row.trial, row.reason) for row in sift.demoted):
+    doubted = (*sift.demoted, *(_outside_the_band(before, sift) if best is None else ()))
+    for trial, reason in ((row.trial, row.reason) for row in doubted):
         if not _is_material(before, trial, floor):
             continue
         weight = 1.0 if best is None else tie_weight(tie_statistic(best, trial))
@@ -125,6 +133,15 @@ def _none_but_demoted(
         made.append(replace(finding_of(before, trial, most, (), floor), demoted=reason))
     refused = tuple(NotClaimed(row.trial.effect, row.reason) for row in sift.refused)
     return Ranked((), tuple(made), refused)
+
+
+def _outside_the_band(before: Fit, sift: Sifted) -> list[Doubted]:
+    """Trials that gain only outside the band of the motion, with values that can be right."""
+    return [
+        Doubted(trial, OUTSIDE_THE_BAND)
+        for trial in sift.rivals
+        if impossible(Claim(trial.effect, before, trial.fit)) is None
+    ]
 
 
 def _is_material(before: Fit, trial: Trial, floor: NoiseFloor) -> bool:
