@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from stribeck.diagnosis.loop.remainder import (
     BESIDE_STRUCTURE,
     LEAST_PART,
     REASON,
+    imitations,
     part_explained,
     unknown_structure,
 )
@@ -74,6 +76,16 @@ def test_what_the_measurement_explains_is_not_unknown(fitted: sb.Fit, tmp_path: 
     late = frame.with_columns(torque=np.roll(frame["torque"].to_numpy(), 2))
     read_late = sb.fit("coulomb", record(tmp_path, late), starts=1)
     assert unknown_structure(read_late, remains) == 0.0
+
+
+def test_friction_must_explain_as_much_as_remains_and_other_effects_half(fitted: sb.Fit) -> None:
+    (found, *_) = sb.diagnose(fitted, brief=True, least_fall=1e-4).findings
+
+    def demoted(effect: str, part: float) -> bool:
+        return imitations([replace(found, effect=effect, part=part)]) == [effect]
+
+    assert demoted("load", 0.49) and not demoted("load", 0.51)
+    assert demoted("delay", 0.32) and not demoted("delay", 0.34)
 
 
 @pytest.mark.slow

@@ -26,6 +26,8 @@ from stribeck.fitting.result import Fit
 BESIDE_STRUCTURE = NARROW
 #: A friction effect with a smaller part is demoted: it explains less than what remains.
 LEAST_PART = 0.5
+#: Another effect with a smaller part: it explains less than half of what remains.
+LEAST_PART_OF_OTHERS = 1 / 3
 REASON = (
     "it explains less than what remains unexplained, so it may imitate a cause that no effect of "
     "the catalog has"
@@ -70,6 +72,10 @@ def part_explained(gain: float | None, unknown: float, remains: Unexplained) -> 
 
 
 def imitations(findings: Sequence[Finding]) -> list[str]:
-    """The friction effects that explain less than what remains, the smallest part first."""
-    doubtful = [f for f in findings if f.part < LEAST_PART and is_friction(f.effect)]
+    """The effects that explain too little beside what remains, the smallest part first."""
+    doubtful = [finding for finding in findings if finding.part < _least_part(finding.effect)]
     return [finding.effect for finding in sorted(doubtful, key=lambda finding: finding.part)]
+
+
+def _least_part(effect: str) -> float:
+    return LEAST_PART if is_friction(effect) else LEAST_PART_OF_OTHERS
