@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from stribeck.base import linear
 from stribeck.effect.base import (
     Array,
     Effect,
@@ -19,6 +20,8 @@ from stribeck.recording.recording import Recording
 
 #: Ratio of fast to slow speeds from which the curve shows.
 SPEED_RATIO = 2.5
+#: The slowest samples, as a share, and the share of the effect from which it acts there alone.
+SLOWEST, MOST = 0.1, 0.5
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
@@ -36,15 +39,36 @@ def _constants(recording: Recording) -> dict[str, float]:
     return {"reference_velocity": recording.scales()["speed"] or 1.0}
 
 
+def _curve(after: Identified, speed: Array | float) -> Array:
+    """The effect over its coefficient and the reference velocity, at speeds of any shape."""
+    m = after.model
+    ratio = speed / m.constants["reference_velocity"]
+    levelled = ratio / (1.0 + speed / m.value("nonlinear_viscous_saturation"))
+    return np.asarray(levelled ** m.value("nonlinear_viscous_exponent"))
+
+
+def _out_of_reach(after: Identified) -> str | None:
+    """Why it is no more than dry friction that is smaller at the slowest speeds."""
+    speed = np.abs(after.recording.velocity[after.rows])
+    curve = _curve(after, speed)
+    dry_and_viscous = np.column_stack([np.ones_like(speed), speed])
+    left = (curve - dry_and_viscous @ linear.least_norm(dry_and_viscous, curve)) ** 2
+    slow = float(np.quantile(speed, SLOWEST))
+    if float(left[speed <= slow].sum()) < MOST * float(left.sum()):
+        return None
+    return (
+        f"it changes friction below {number(slow)} {after.model.position_unit}/s alone, the "
+        f"slowest {100 * SLOWEST:.0f} % of the samples, and is dry friction above"
+    )
+
+
 def _where(before: Identified, after: Identified) -> str:
     m = after.model
     top = max(abs(x) for x in m.box["velocity"])
     reference = m.constants["reference_velocity"]
 
     def part(speed: float) -> float:
-        levelled = speed / reference / (1.0 + speed / m.value("nonlinear_viscous_saturation"))
-        power = levelled ** m.value("nonlinear_viscous_exponent")
-        return m.value("nonlinear_viscous_coefficient") * reference * power
+        return m.value("nonlinear_viscous_coefficient") * reference * float(_curve(after, speed))
 
     bends = "flattens" if part(0.5 * top) > 0.5 * part(top) else "steepens"
     return (
@@ -82,4 +106,5 @@ EFFECT = Effect(
     constants=_constants,
     generated_constants=_generated_constants,
     flexible_shape=_flexible_shape,
+    out_of_reach=_out_of_reach,
 )

@@ -13,10 +13,11 @@ from scipy.signal import lfilter
 from stribeck.diagnosis.loop.exchange import Exchange
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.measurement.late_thermometer import LATE_THERMOMETER
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import try_effect
 from stribeck.recording.derive import slow_rate
-from synthetic import Array, joint, motion, record
+from synthetic import COULOMB, Array, joint, motion, record
 
 #: Seconds by which the thermometer is late, and the share of dry friction (3 N m) lost per kelvin.
 LAG, SLOPE = 3.0, 0.02
@@ -99,3 +100,32 @@ def test_a_rate_is_that_of_each_run_and_passes_over_gaps() -> None:
     both = slow_rate(np.concatenate([time, time]), falling, run)
     assert both[: time.size] == pytest.approx(rate)
     assert both[time.size :].max() < 0.0
+
+
+@pytest.mark.parametrize(
+    ("effect", "size"), [("temperature_dry", 0.015 * COULOMB), ("temperature_viscous", 0.02)]
+)
+def test_a_joint_that_only_warms_up_shows_the_effect_of_temperature(
+    tmp_path: Path, effect: str, size: float
+) -> None:
+    """The rate of such a temperature is proportional to it: a lag explains neither of them."""
+    rows = 8000
+    t, _, v, _ = motion(rows)
+    warm = 45.0 - 20.0 * np.exp(-t / 25.0)
+    along = np.sign(v) if effect == "temperature_dry" else v
+    frame = joint(-size * (warm - 35.0) * along, rows=rows).with_columns(temperature=warm)
+    found = sb.diagnose(sb.fit("coulomb", record(tmp_path, frame), starts=1), brief=True)
+    assert found.findings[0].effect == effect and found.findings[0].confidence > 0.9
+
+
+def test_the_lag_stays_a_cause_where_friction_depends_on_the_temperature(tmp_path: Path) -> None:
+    recording = record(tmp_path, seen_late(4000))
+    fits = {spec: sb.fit(spec, recording, starts=1) for spec in ("coulomb", "coulomb+load")}
+    fits["warm"] = sb.fit("coulomb+temperature_dry", recording, starts=1)
+    for name, effect, acts in (
+        ("coulomb", "temperature_dry", False),
+        ("coulomb+load", "temperature_viscous", False),
+        ("coulomb", "drift", True),
+        ("warm", "temperature_viscous", True),
+    ):
+        assert LATE_THERMOMETER.acts_without(effect, fits[name]) == acts

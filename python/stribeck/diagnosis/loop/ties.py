@@ -18,6 +18,7 @@ from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.loop.superfluous import fit_without
 from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.beside_structure import is_undecided
 from stribeck.diagnosis.trials.evidence import Difference, difference, held_out_square
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.imitations import NARROW
@@ -36,31 +37,33 @@ def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
     An effect that loses a tie must pass all tests there, beside the others, and is then no surer
     than one that stands by little.
     """
-    noise = not path.last.unexplained.is_structure
+    remains = path.last.unexplained
+    left = (remains.share or 0.0) if remains.is_structure else 0.0
     with on_threads() as pool:
-        made = pool.map(lambda step: _settled(step, path.current, noise, least, seed), path.steps)
+        made = pool.map(lambda step: _settled(step, path.current, left, least, seed), path.steps)
         for step, finding in zip(path.steps, list(made), strict=True):
             if finding is not step.finding:
                 path = path.with_instead(finding)
     return path
 
 
-def _settled(step: ImprovementStep, current: Fit, noise: bool, least: float, seed: int) -> Finding:
+def _settled(step: ImprovementStep, current: Fit, left: float, least: float, seed: int) -> Finding:
     """The finding of a step with the ties that the model `current` leaves open.
 
     Parameters
     ----------
-    noise
-        Whether no more than noise remains, so that the forms of effects tell them apart.
+    left
+        Structure that remains, as a share of the squared held-out error; with none of it the forms
+        of effects tell them apart.
     """
     finding = step.finding
     inside = {*current.model.effects, *current.model.own_effects}
     ties = [name for name in finding.indistinguishable_from if name not in inside]
-    others = _Others(finding, current, noise, seed)
+    others = _Others(finding, current, left, seed)
     unknown = alike(finding.effect, finding.before, current)
-    rivals = step.rivals if is_friction(finding.effect) else ()
-    imitated = [name for name in rivals if not is_friction(name) and name not in inside]
-    possible = dict.fromkeys((*ties, *unknown, *imitated))
+    kind = is_friction(finding.effect)
+    rivals = [name for name in step.rivals if is_friction(name) != kind and name not in inside]
+    possible = dict.fromkeys((*ties, *unknown, *rivals))
     weights = {
         name: 1.0 if name in unknown else others.weight(name, 0.0 if name in ties else PROMISE)
         for name in possible
@@ -85,7 +88,7 @@ class _Others:
 
     finding: Finding
     current: Fit
-    noise: bool
+    left: float
     seed: int
 
     @cached_property
@@ -96,7 +99,7 @@ class _Others:
     @cached_property
     def fits_exactly(self) -> bool:
         """Whether no structure remains, and the one has the very form of what is missing."""
-        return self.noise and fits_exactly(self.finding.effect, self.current)
+        return self.left == 0.0 and fits_exactly(self.finding.effect, self.current)
 
     @cached_property
     def free_square(self) -> Array:
@@ -117,6 +120,9 @@ class _Others:
             return 0.0
         if self.fits_exactly and self._adds_to(by.fit):
             return 0.0
+        effects, fits = (self.finding.effect, effect), (self.current, by.fit)
+        if self.without and is_undecided(effects, fits, self.without, self.left):
+            return 1.0
         weight = tie_weight(difference(by.fit, self.current).statistic)
         if is_friction(effect) or not is_friction(self.finding.effect):
             return weight

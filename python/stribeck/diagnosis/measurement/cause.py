@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.fitting.result import Fit
+from stribeck.models.catalog import effect_row
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -26,11 +27,21 @@ class MeasurementCause:
         What it may add to the torque of a fit: arrays [n]; none where it cannot act.
     rising
         How many of the columns, the last ones, cannot have a negative factor.
+    through
+        The channel of which it shows a wrong value: it acts where friction depends on that.
     """
 
     what: str
     columns: Callable[[Fit], list[Array]]
     rising: int = 0
+    through: str | None = None
+
+    def acts_without(self, effect: str, fit: Fit) -> bool:
+        """Whether it acts on a fit without `effect`, by which friction may first depend on it."""
+        row = effect_row(effect)
+        if self.through is None or row is None or self.through not in row["channels"]:
+            return True
+        return self.through in fit.model.core.needs
 
 
 def load_of(fit: Fit) -> Array:

@@ -1,7 +1,9 @@
 """A thermometer on the housing follows the temperature of the contacts late.
 
 Friction at the contacts is that of a temperature which the thermometer shows later: to first order
-it differs by the lag times the rate of the temperature shown.
+it differs by the lag times the rate of the temperature shown. That is no alternative to friction
+that depends on the temperature, but a part of it. While a joint warms up, that rate falls in
+proportion to the temperature, and would explain such friction as well.
 """
 
 from __future__ import annotations
@@ -20,4 +22,4 @@ def _columns(fit: Fit) -> list[Array]:
     return [np.sign(r.velocity) * rate, r.velocity * rate]
 
 
-LATE_THERMOMETER = MeasurementCause("a thermometer that lags", _columns)
+LATE_THERMOMETER = MeasurementCause("a thermometer that lags", _columns, through="temperature")

@@ -29,6 +29,12 @@ def measurement_columns(fit: Fit) -> dict[str, Array]:
     return {what: np.column_stack(columns)[fit.rows] for what, columns in found if columns}
 
 
+def without_effect(columns: Mapping[str, Array], effect: str, fit: Fit) -> dict[str, Array]:
+    """Those of these columns whose causes act on `fit` without `effect`."""
+    acting = {cause.what for cause in CAUSES if cause.acts_without(effect, fit)}
+    return {what: made for what, made in columns.items() if what in acting}
+
+
 def least_factors(columns: Mapping[str, Array]) -> Array:
     """The least factor that each of these columns, one after the other, may have [k]."""
     rising = {cause.what: cause.rising for cause in CAUSES}

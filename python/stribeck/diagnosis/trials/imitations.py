@@ -13,7 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stribeck.diagnosis.measurement.table import least_factors, measurement_columns
+from stribeck.diagnosis.measurement.table import (
+    least_factors,
+    measurement_columns,
+    without_effect,
+)
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
@@ -85,6 +89,11 @@ def without_imitations(
     for trial in suspects:
         unseen = _lacks_simpler(trial, before, passed)
         rivals = _with_zero(before) if unseen else of_measurement
+        acting = without_effect(columns, trial.effect, before)
+        if not acting:
+            continue
+        if len(acting) < len(columns):
+            rivals = _Rivals.beside(before, acting)
         better = rivals.advantage(trial)
         if unseen:
             # Its simpler part shows nothing alone: the wider one must also add to the causes.

@@ -12,6 +12,7 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed, impossible
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.beside_structure import is_undecided, structure_share
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.known_size import has_known_size
@@ -84,7 +85,7 @@ def ranked(
     # What is named as a tie is not excluded, however its error compares.
     weights.update({t.effect: max(weights[t.effect], tie_weight(TIE)) for t in tied})
     claimed = sum(weights[t.effect] for t in tied)
-    doubtful = _doubtful_ties(best, sift, tried, least, seed)
+    doubtful = _doubtful_ties(before, best, sift, tried, least, floor, seed)
     total = claimed + sum(doubtful.values())
     alike = [t.effect for t in tied]
     named = [*alike, *(e for e, weight in doubtful.items() if weight >= tie_weight(TIE))]
@@ -192,7 +193,13 @@ def _tied(
 
 
 def _doubtful_ties(
-    best: Trial, sift: Sifted, tried: int, least: float, seed: int
+    before: Fit,
+    best: Trial,
+    sift: Sifted,
+    tried: int,
+    least: float,
+    floor: NoiseFloor,
+    seed: int,
 ) -> dict[str, float]:
     """Weights of the effects that may not be claimed, and predict as well as the best that may.
 
@@ -202,7 +209,15 @@ def _doubtful_ties(
     """
     rivals = () if is_friction(best.effect) else sift.rivals
     trials = [*(row.trial for row in (*sift.demoted, *sift.refused)), *rivals]
-    weights = {trial.effect: tie_weight(tie_statistic(best, trial)) for trial in trials}
+    left = structure_share(best.fit, floor)
+
+    def weight(trial: Trial) -> float:
+        effects, fits = (best.effect, trial.effect), (best.fit, trial.fit)
+        if is_undecided(effects, fits, before, left):
+            return 1.0
+        return tie_weight(tie_statistic(best, trial))
+
+    weights = {trial.effect: weight(trial) for trial in trials}
     alike = [trial for trial in trials if weights[trial.effect] > NEGLIGIBLE]
     with on_threads() as pool:
         adds = pool.map(lambda trial: adds_to(best, trial, tried, least, seed), alike)
