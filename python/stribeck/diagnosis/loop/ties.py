@@ -47,19 +47,21 @@ def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
     return path
 
 
-def _settled(step: ImprovementStep, current: Fit, left: float, least: float, seed: int) -> Finding:
+def _settled(
+    step: ImprovementStep, current: Fit, structure: float, least: float, seed: int
+) -> Finding:
     """The finding of a step with the ties that the model `current` leaves open.
 
     Parameters
     ----------
-    left
-        Structure that remains, as a share of the squared held-out error; with none of it the forms
-        of effects tell them apart.
+    structure
+        Structure that remains, as a share of the squared held-out error; without it the forms of
+        effects tell them apart.
     """
     finding = step.finding
     inside = {*current.model.effects, *current.model.own_effects}
     ties = [name for name in finding.indistinguishable_from if name not in inside]
-    others = _Others(finding, current, left, seed)
+    others = _Others(finding, current, structure, seed)
     unknown = alike(finding.effect, finding.before, current)
     kind = is_friction(finding.effect)
     rivals = [name for name in step.rivals if is_friction(name) != kind and name not in inside]
@@ -88,7 +90,7 @@ class _Others:
 
     finding: Finding
     current: Fit
-    left: float
+    structure: float
     seed: int
 
     @cached_property
@@ -99,7 +101,7 @@ class _Others:
     @cached_property
     def fits_exactly(self) -> bool:
         """Whether no structure remains, and the one has the very form of what is missing."""
-        return self.left == 0.0 and fits_exactly(self.finding.effect, self.current)
+        return self.structure == 0.0 and fits_exactly(self.finding.effect, self.current)
 
     @cached_property
     def free_square(self) -> Array:
@@ -121,7 +123,7 @@ class _Others:
         if self.fits_exactly and self._adds_to(by.fit):
             return 0.0
         effects, fits = (self.finding.effect, effect), (self.current, by.fit)
-        if self.without and is_undecided(effects, fits, self.without, self.left):
+        if self.without and is_undecided(effects, fits, self.without, self.structure):
             return 1.0
         weight = tie_weight(difference(by.fit, self.current).statistic)
         if is_friction(effect) or not is_friction(self.finding.effect):
