@@ -39,6 +39,9 @@ __all__ = [
     "torque_place",
 ]
 
+#: Optional channels without which much is lost: a column that may hold one is named.
+WORTH_A_NOTE = ("velocity", "temperature")
+
 
 def build(
     prepared: Prepared,
@@ -205,10 +208,12 @@ def _say_proposed(data: Channels) -> None:
     names = data.prepared.table.columns
     used = {choice.source for choice in data.prepared.choices.values()}
     for row in propose(names, used, data.prepared.settings.joint):
-        if row.channel == "temperature" and row.channel not in data.prepared.choices:
+        left_out = {*data.prepared.choices, *data.prepared.settings.maps}
+        if row.channel in WORTH_A_NOTE and row.channel not in left_out:
+            what = row.channel.replace("_", " ")
             data.notes.append(
-                f"'{row.column}' is not read: if it is the temperature of the joint, give "
-                f"{option('map', f'temperature={row.column}')}"
+                f"'{row.column}' is not read: if it is the {what} of the joint, give "
+                f"{option('map', f'{row.channel}={row.column}')}"
             )
 
 

@@ -245,10 +245,17 @@ def _match(stem: str) -> tuple[str, Unit | None, bool] | None:
         head = "_".join(parts[:-count])
         channel = _CHANNEL_OF.get(_key(head))
         if channel is not None and CHANNELS[channel]:
-            unit = find_unit("_".join(parts[-count:]), CHANNELS[channel])
+            unit = _unit_of_words(parts[-count:], CHANNELS[channel])
             if unit is not None:
                 return channel, unit, _key(head) == _key(channel)
     return None
+
+
+def _unit_of_words(words: Sequence[str], dimensions: tuple[str, ...] | None = None) -> Unit | None:
+    """The unit that the last words of a name spell: ``mm_s`` is mm/s."""
+    text = "_".join(words)
+    per_second = re.sub(r"_(?=s2?$)", "/", text)
+    return find_unit(per_second, dimensions) or find_unit(text, dimensions)
 
 
 def file_unit(name: str) -> Unit | None:
@@ -258,11 +265,11 @@ def file_unit(name: str) -> Unit | None:
         return find_unit(bracket[1])
     for stem, _ in _stems(name):
         parts = stem.split("_")
-        for count in (1, 2, 3):
+        for count in (3, 2, 1):
             if count < len(parts):
                 text = "_".join(parts[-count:])
                 # A single letter may mean anything, except these.
-                unit = find_unit(text)
+                unit = _unit_of_words(parts[-count:])
                 if unit is not None and (len(text) > 1 or text in "smNVA%KC"):
                     return unit
     return None

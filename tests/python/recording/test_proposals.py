@@ -137,3 +137,12 @@ def test_fields_of_two_structs_with_one_name(tmp_path):
     path = tmp_path / "log.mat"
     scipy.io.savemat(path, {"rec": arrays, "plan": other})
     np.testing.assert_array_equal(read(path).torque, arrays["torque"])
+
+
+def test_a_velocity_that_is_not_read_is_named(tmp_path):
+    path = tmp_path / "joint.csv"
+    joint(rows=2000).rename({"velocity": "velocity_of_the_drum"}).write_csv(path)
+    said = [note for note in read(path).notes if "'velocity_of_the_drum' is not read" in note]
+    assert len(said) == 1 and "velocity=velocity_of_the_drum" in said[0]
+    left_out = read(path, map={"velocity": "none"})
+    assert not [note for note in left_out.notes if "is not read" in note]

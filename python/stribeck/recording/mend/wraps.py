@@ -21,7 +21,8 @@ _LONG = 0.5
 _SHORT = 0.25
 #: Periods that positions wrap with: turns in rad and in degrees, and +-12.5 rad of actuators with
 #: a 16-bit position.
-_PERIODS = (2.0 * np.pi, 4.0 * np.pi, 8.0 * np.pi, 25.0, 360.0, 720.0)
+_DEGREES = (360.0, 720.0)
+_PERIODS = (2.0 * np.pi, 4.0 * np.pi, 8.0 * np.pi, 25.0, *_DEGREES)
 #: A measured period within this share of a known one is that one.
 _NEAR = 2e-3
 
@@ -91,6 +92,12 @@ def unwrap(data: Channels, run: Ints, *, mend: bool = True) -> None:
         turned[same] += position[first] - turned[first]
     times = "1 time" if found.count == 1 else f"{found.count} times"
     jumps = f"the position jumps {times} by {found.period:.6g}"
+    choice = data.prepared.choices.get("position")
+    if found.period in _DEGREES and choice is not None and choice.unit is None:
+        given = option("unit", f"{choice.source}=deg")
+        said = f"{jumps}, as one in degrees does, and its unit is not named"
+        data.doubts.append(Check("position", False, said, f"give {given}, or its other unit"))
+        return
     if mend and (settings.unwrap or _certain(data, Track(time, segment), found, turned)):
         data.values["position"] = turned
         data.notes.append(f"{jumps} and is unwrapped with this period")
