@@ -52,7 +52,7 @@ def test_a_position_that_wraps_in_degrees_needs_its_unit(write):
     frame = joint(rows=4000).select("time", "torque", angle=pl.col("position"))
     turning = np.rad2deg(2.0 * np.pi * 3.0 * frame["angle"].to_numpy())
     path = write(frame.with_columns(angle=pl.Series(turning % 360.0)))
-    with pytest.raises(RecordingError, match="jumps [0-9]+ times by 360.*angle=deg"):
+    with pytest.raises(RecordingError, match=r"jumps [0-9]+ times by 360.*angle=deg"):
         read(path).require_consistent()
     named = read(path, unit={"angle": "deg"})
     assert "by 6.28319 and is unwrapped" in _said(named, "unwrapped")
