@@ -28,6 +28,7 @@ from stribeck.recording.reference import check_reference, load_reference, with_r
 from stribeck.recording.sampled import sampled
 from stribeck.recording.samples import check_time, drop_missing, in_runs
 from stribeck.recording.torque_at import guess_torque_at
+from stribeck.recording.unused import say_unused
 from stribeck.recording.weights import check_scored_weights
 
 __all__ = [
@@ -89,6 +90,7 @@ def load_channels(
     require(prepared)
     data, run, run_names, dropped = _loaded(prepared, rows, mend=mend, one_run=one_run)
     kind, torque_unit, position_unit = settle_units(data)
+    say_unused(data, kind)
     _say_assumed(data, kind)
     _say_proposed(data)
     layout = Layout(joint, kind, torque_unit, position_unit, run, run_names, dropped)
