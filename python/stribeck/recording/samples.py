@@ -82,10 +82,10 @@ def drop_missing(data: Channels) -> int:
             f"of them in column '{source}', first in {place}: {advice}"
         )
     data.notes.append(
-        f"{total} of {len(bad)} rows with empty, NaN or infinite cells are treated as gaps "
+        f"{total} of {len(bad)} rows with empty, NaN or infinite cells are left out "
         f"(first in {place}, column '{source}')"
     )
-    data.keep(~bad)
+    data.join(~bad)
     return total
 
 

@@ -139,7 +139,7 @@ class Whole:
             for channel in ("time", *channels):
                 data.load(channel)
             finite = np.all([np.isfinite(values) for values in data.values.values()], axis=0)
-            data.keep(finite)
+            data.join(finite)
             _, run = in_runs(data)
             order = np.argsort(run, kind="stable")
             data.reorder(order)

@@ -30,13 +30,16 @@ def test_gap_and_where_start_segments(write, frame):
 
 
 @pytest.mark.parametrize("bad", [float("nan"), float("inf"), None])
-def test_few_bad_rows_are_dropped_as_gaps(write, frame, bad):
+def test_few_bad_rows_are_left_out(write, frame, bad):
+    """Only a stretch of them is a gap, as where no rows were written."""
     torque = frame["torque"].to_list()
-    for i in (100, 101, 700):
+    for i in (100, 101, 700, *range(900, 906)):
         torque[i] = bad
     recording = read(write(frame.with_columns(torque=pl.Series(torque))))
-    assert recording.rows_dropped == 3 and len(recording) == 1997 and recording.gaps == 2
-    assert any("3 of 2000 rows" in n and "row 101, column 'torque'" in n for n in recording.notes)
+    assert recording.rows_dropped == 9 and len(recording) == 1991 and recording.gaps == 1
+    assert any("9 of 2000 rows" in n and "row 101, column 'torque'" in n for n in recording.notes)
+    never = read(write(frame.with_row_index().filter(~pl.col("index").is_in([100, 101, 700]))))
+    assert never.gaps == 0
 
 
 def test_many_bad_rows_are_refused(write, frame):

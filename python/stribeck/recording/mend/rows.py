@@ -1,4 +1,4 @@
-"""Rows that a logger repeated or left at zero: they become gaps."""
+"""Rows that a logger repeated or left at zero: they are left out."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NEAR = 0.02
 
 
 def drop_bad_rows(data: Channels, run: Ints) -> Ints:
-    """Make gaps of rows that hold no measurement; returns the runs of the rows left.
+    """Leave out rows that hold no measurement; returns the runs of the rows left.
 
     These are rows of zeros in the middle of a motion, rows that repeat the row before while the
     joint moves, torques that stand alone far outside of all others, and torques clipped at the
@@ -50,10 +50,10 @@ def drop_bad_rows(data: Channels, run: Ints) -> Ints:
         at = int(np.flatnonzero(bad)[0])
         verb = what if count > 1 else _singular(what)
         data.notes.append(
-            f"{count} of {len(run)} rows {verb} and {'are' if count > 1 else 'is'} left out as "
-            f"gaps (first {data.place(at)})"
+            f"{count} of {len(run)} rows {verb} and {'are' if count > 1 else 'is'} left out "
+            f"(first {data.place(at)})"
         )
-        data.keep(~bad)
+        data.join(~bad)
         run = run[~bad]
     return run
 
