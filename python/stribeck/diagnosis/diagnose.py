@@ -15,7 +15,7 @@ from stribeck.diagnosis.all_samples import (
     with_remainder_on_all_samples,
 )
 from stribeck.diagnosis.plausibility.claim import Claim
-from stribeck.diagnosis.plausibility.rules import impossible
+from stribeck.diagnosis.plausibility.rules import NotClaimed, impossible
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor, noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
@@ -43,6 +43,10 @@ if TYPE_CHECKING:
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
+SHAPE = (
+    "the effects of the model would explain what it does, were the form of their torque a little "
+    "different"
+)
 NOT_ASKED = Unexplained(None, None, asked=False)
 
 
@@ -150,6 +154,7 @@ def _findings(
         demoted=order.demoted,
         not_claimed=order.not_claimed,
         passed=tuple(t.fit.model.written(t.effect) for t in passed),
+        explained=tuple(NotClaimed(t.effect, SHAPE) for t in found.explained),
         tried=Tried(offered.possible, tried, least_fall),
     )
     return made, found
@@ -217,4 +222,4 @@ def _named(found: Diagnosis) -> set[str]:
     """Effects that a result names."""
     claims = (*found.findings, *found.demoted)
     named = {e for finding in claims for e in (finding.effect, *finding.indistinguishable_from)}
-    return named | {row.effect for row in found.not_claimed}
+    return named | {row.effect for row in (*found.not_claimed, *found.explained)}

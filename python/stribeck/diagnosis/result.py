@@ -161,6 +161,8 @@ class Diagnosis(Plotted):
     uncertain
         Effects that predict better, but not by more than chance may: what else is missing may hide
         them; not asked where `brief` finds some.
+    explained
+        Effects that pass, but add nothing where those of the model may take any smooth form.
     pair
         Two effects that predict only together; asked where structure remains and nothing is found.
     smallest_visible
@@ -195,6 +197,7 @@ class Diagnosis(Plotted):
     tried: Tried = Tried()
     in_one_block: tuple[Finding, ...] = ()
     uncertain: tuple[Finding, ...] = ()
+    explained: tuple[NotClaimed, ...] = ()
     pair: Pair | None = None
 
     @property
@@ -217,7 +220,7 @@ class Diagnosis(Plotted):
             "noise_floor": self.noise_floor.value,
             "verdict": self.verdict,
             "findings": [row.to_dict() for row in (*self.findings, *self.demoted)],
-            "not_claimed": [row.to_dict() for row in self.not_claimed],
+            "not_claimed": [row.to_dict() for row in (*self.not_claimed, *self.explained)],
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
             "explainable": self.explainable.to_dict() if self.explainable else None,

@@ -49,9 +49,9 @@ def _where(before: Identified, after: Identified) -> str:
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:
-    """Waves longer than a ripple. The constant of another rest position is an offset."""
+    """Waves longer than a ripple, and a constant: the rest position of the spring is unknown."""
     q = fit.recording.position
-    return [] if q is None else half_waves(q[fit.rows], range(1, 2 * FEWEST_PERIODS))
+    return [] if q is None else half_waves(q[fit.rows], range(2 * FEWEST_PERIODS))
 
 
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:

@@ -107,7 +107,8 @@ def doubts(diagnosis: Diagnosis) -> list[tuple[str, list[str]]]:
         f"{row.effect} (confidence {confidence_text(row.confidence)}): {row.demoted}."
         for row in diagnosis.demoted
     ]
-    refused = [f"{row.effect}: {row.reason}." for row in diagnosis.not_claimed]
+    others = (*diagnosis.not_claimed, *diagnosis.explained)
+    refused = [f"{row.effect}: {row.reason}." for row in others]
     return [row for row in ((DEMOTED, demoted), (NOT_CLAIMED, refused)) if row[1]]
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import stribeck as sb
+from stribeck.diagnosis.diagnose import SHAPE
 from stribeck.diagnosis.loop.exchange import exchanges, ties_of
 from stribeck.diagnosis.result import Finding
 from synthetic import joint, motion, record
@@ -47,7 +48,12 @@ def test_what_a_springs_rest_position_does_is_no_offset(tmp_path: Path) -> None:
     """Nobody knows where a spring is at rest: its mean along the motion is its own."""
     q = motion()[1]
     pull = 0.4 * np.exp(1.2 * q)
-    assert names(record(tmp_path, joint(pull - pull.mean() + 0.03))) == ["spring"]
+    recording = record(tmp_path, joint(pull - pull.mean() + 0.03))
+    assert names(recording) == ["spring"]
+    left = sb.diagnose(sb.fit("coulomb+spring", recording, starts=1), brief=True)
+    reasons = {row.effect: row.reason for row in left.explained}
+    assert reasons["offset"] == SHAPE
+    assert f"offset: {SHAPE}." in " ".join(str(left).split())
 
 
 def test_a_wider_effect_gives_way_to_what_remains_of_it(tmp_path: Path) -> None:

@@ -73,6 +73,9 @@ class World:
     of_unknown_size: set[str] = field(default_factory=set)
     #: Effects that no recording like this tells from one of the catalog.
     alike: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    #: Structure that remains, and effects between which and the best it may decide.
+    structure: float = 0.0
+    undecided: set[str] = field(default_factory=set)
     #: How certainly the model predicts better with a finding.
     certainty: float = 1.0
 
@@ -101,6 +104,8 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
         "has_known_size": lambda effect, fit: effect not in made.of_unknown_size,
         "is_friction": lambda effect: effect in made.friction,
         "where": lambda *rest: "here",
+        "structure_share": lambda fit, floor: made.structure,
+        "is_undecided": lambda effects, fits, before, left: effects[1] in made.undecided,
         "alike": lambda effect, before, after: made.alike.get(effect, ()),
         "Sifted": Judge,
     }
@@ -315,3 +320,13 @@ def test_a_named_tie_leaves_a_doubt(world: World) -> None:
     first, *_ = order(BEST, other(4.0, 3, 8.0)).findings
     assert first.indistinguishable_from == ("other",)
     assert first.confidence == pytest.approx(1.0 / (1.0 + tie_weight(TIE)))
+
+
+@pytest.mark.parametrize(("structure", "confidence"), [(0.0, 1.0), (0.4, 0.5)])
+def test_what_remains_may_decide_between_friction_and_another_cause(
+    world: World, structure: float, confidence: float
+) -> None:
+    world.friction, world.structure, world.undecided = {"other"}, structure, {"other"}
+    (first,) = order(BEST, refused=(other(3.0, 5),)).findings
+    assert first.confidence == pytest.approx(confidence, abs=0.01)
+    assert first.indistinguishable_from == (("other",) if structure else ())

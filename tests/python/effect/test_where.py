@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
@@ -11,7 +10,6 @@ import pytest
 import stribeck as sb
 from stribeck.effect.base import Identified
 from stribeck.effect.describe import where
-from synthetic import joint, motion, record
 
 
 def with_values(spec: str, **values: float) -> Identified:
@@ -58,13 +56,3 @@ def test_a_load_torque_that_was_smoothed_does_the_same_as_elasticity(
     assert (
         "a load torque averaged over 0.09 s does the same" in where("elasticity", after, after)
     ) is said
-
-
-@pytest.mark.slow
-def test_a_spring_whose_rest_position_is_not_the_middle_has_an_offset(tmp_path: Path) -> None:
-    """Its other terms have no mean over the stroke."""
-    q = motion(6000)[1]
-    frame = joint(1.5 * (q - 0.6) + 0.8 * (q - 0.6) ** 3, rows=6000)
-    found = sb.improve("coulomb", record(tmp_path, frame))
-    assert {step.finding.effect for step in found.steps} == {"spring", "offset"}
-    assert found.final.rmse == pytest.approx(0.03, rel=0.1)

@@ -29,7 +29,7 @@ def is_undecided(effects: tuple[str, str], fits: tuple[Fit, Fit], before: Fit, l
     left
         Structure as a share of the squared held-out error of the better model, 0..1.
     """
-    if is_friction(effects[0]) == is_friction(effects[1]):
+    if not left > 0.0 or is_friction(effects[0]) == is_friction(effects[1]):
         return False
     best, other, level = (held_out_square(fit, before) for fit in (*fits, before))
     return level - other >= ALIKE * (level - best) and other - best <= SMALL * left * best
@@ -37,7 +37,7 @@ def is_undecided(effects: tuple[str, str], fits: tuple[Fit, Fit], before: Fit, l
 
 def structure_share(fit: Fit, floor: NoiseFloor) -> float:
     """Share of the squared held-out error of a fit above the noise floor, 0..1; 0 without one."""
-    square = held_out_square(fit, fit) / fit.rows.size
-    if floor.value is None or not square > 0.0 or floor.is_reached_by(fit.rmse):
+    if floor.value is None or floor.is_reached_by(fit.rmse):
         return 0.0
-    return max(1.0 - floor.value**2 / square, 0.0)
+    square = held_out_square(fit, fit) / fit.rows.size
+    return max(1.0 - floor.value**2 / square, 0.0) if square > 0.0 else 0.0

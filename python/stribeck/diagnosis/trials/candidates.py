@@ -86,6 +86,8 @@ class Tested:
         Trials that would pass, but gain only at frequencies above those of the motion.
     uncertain
         Trials that predict better in most blocks, but not by more than chance may.
+    explained
+        Trials that pass, but add nothing where the effects of the model may take any smooth form.
     screenings
         Each effect that was screened.
     """
@@ -94,6 +96,7 @@ class Tested:
     in_one_block: list[Trial]
     outside_the_band: list[Trial]
     uncertain: list[Trial]
+    explained: list[Trial]
     screenings: Mapping[str, Screened]
 
     @property
@@ -135,13 +138,8 @@ def tested(
         elif passes(beyond[1], tried, least):
             good.append(beyond[1])
     good = [t for t in good if falls_on_all_samples(fitted, t)]
-    flexible = FlexibleRefit.of(fitted) if good else None
-    if flexible is not None:
-        good = [
-            t
-            for t in good
-            if is_missing_dry_friction(t, fitted.model) or not flexible.explains(t, tried, least)
-        ]
+    explained = _explained(fitted, good, tried, least)
+    good = [t for t in good if t not in explained]
     good.sort(key=lambda trial: trial.rank)
     for pair in pairs:
         if pair.larger in good and pair.together.rank < good[0].rank:
@@ -150,7 +148,16 @@ def tested(
     outside = [t for t in first.trials if passes_outside_the_band(t, tried, least)]
     uncertain = [t for t in first.trials if is_uncertain(t, tried, least)]
     passing = dry_friction_first(good, fitted.model)
-    return Tested(passing, in_one_block, outside, uncertain, first.screenings)
+    return Tested(passing, in_one_block, outside, uncertain, explained, first.screenings)
+
+
+def _explained(fitted: Fit, good: list[Trial], tried: int, least: float) -> list[Trial]:
+    """Trials that add nothing where the effects of the model may take any smooth form."""
+    flexible = FlexibleRefit.of(fitted) if good else None
+    if flexible is None:
+        return []
+    effects = [t for t in good if not is_missing_dry_friction(t, fitted.model)]
+    return [t for t in effects if flexible.explains(t, tried, least)]
 
 
 @dataclass(frozen=True)
