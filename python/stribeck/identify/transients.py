@@ -158,11 +158,12 @@ def _left_out(
 
 
 def stretches(recording: Recording, marked: NDArray[np.bool_]) -> list[tuple[float, float]]:
-    """Start and end times of marked samples in s, merged across samples at rest."""
+    """Start and end times of marked samples in s, merged across samples at rest within a run."""
     rows = np.flatnonzero(marked)
     if rows.size == 0:
         return []
-    cuts = np.flatnonzero(np.diff(recording.time[rows]) > 1.0) + 1
+    apart = (np.diff(recording.time[rows]) > 1.0) | (np.diff(recording.run[rows]) != 0)
+    cuts = np.flatnonzero(apart) + 1
     return [
         (float(recording.time[piece[0]]), float(recording.time[piece[-1]]))
         for piece in np.split(rows, cuts)

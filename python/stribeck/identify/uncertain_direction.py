@@ -55,6 +55,8 @@ def left_out_notes(recording: Recording, marked: NDArray[np.bool_]) -> tuple[str
     if late is None:
         return ()
     count = int(np.count_nonzero(marked & uncertain_direction(recording)))
+    if not count:
+        return ()
     return (
         f"the recorded velocity lags the position by {1e3 * late.lag:.3g} ms "
         f"({late.lag * recording.rate_hz:.2g} samples), as behind a filter: the direction of "

@@ -25,7 +25,7 @@ from stribeck.diagnosis.trials.trial import (
     passes,
     passes_in_one_block,
 )
-from synthetic import joint, motion, record
+from synthetic import joint, joint_with_stribeck_curve, motion, record
 
 T, Q, V, A = motion()
 LOAD = joint()["load_torque"].to_numpy()
@@ -200,3 +200,21 @@ def test_a_lag_gives_way_where_its_simpler_part_and_another_effect_do_better(
     best = exchanges([finding], [()], ("spring",), lag, (), 0.01, 0).best
     assert best is not None and best.by.effect == "stribeck"
     assert best.by.fit.model.effects == ("stribeck",) and best.apart > TIE
+
+
+def test_effects_are_tried_again_once_an_imitation_has_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Beside it, two effects that show only together may have been tried in vain."""
+    tried: list[str] = []
+
+    def beyond(_: Search, path: ImprovementPath, trials: object) -> ImprovementPath:
+        tried.append(path.current.model.spec)
+        return path
+
+    monkeypatch.setattr(Search, "_beyond", beyond)
+    monkeypatch.setattr(search_module, "trials_of", lambda found: [found])
+    monkeypatch.setattr(search_module, "imitations", lambda found: [f.effect for f in found])
+    sb.improve("coulomb", record(tmp_path, joint_with_stribeck_curve()), starts=1)
+    assert tried[0] == "coulomb+stribeck"
+    assert len(tried) == 2 and "stribeck" not in tried[1]

@@ -123,7 +123,9 @@ def test_what_lasts_is_structure_without_a_regressor_and_a_floor(
         said = unexplained(fit, NO_FLOOR, None)
         assert said.is_structure == (share > STRUCTURE)
     assert said.share == said.shown == pytest.approx(2.0 * STRUCTURE)
-    assert said.where is not None and said.where.startswith("20 % of it lasts longer")
+    assert said.where is not None and said.where.startswith(
+        "what lasts longer than the noise of a sensor is 20 %"
+    )
     # A regressor that finds it says where.
     assert unexplained(fit, NO_FLOOR, could(0.4)).where == "everywhere"
 

@@ -155,3 +155,14 @@ def test_a_hard_acceleration_is_no_transient(tmp_path: Path) -> None:
     # Where the joint moves as at other times, the same error is a transient.
     assert transient_rows(record(tmp_path, still, "still"))[shaken].any()
     assert not transient_rows(record(tmp_path, moved, "moved")).any()
+
+
+def test_a_stretch_ends_with_its_run(plain: sb.Recording) -> None:
+    """The time of the next run may begin anywhere."""
+    half = plain.rows // 2
+    run = (np.arange(plain.rows) >= half).astype(np.int64)
+    marked = np.zeros(plain.rows, dtype=bool)
+    marked[half - 20 : half + 20] = True
+    time = np.where(run == 0, plain.time, plain.time - plain.time[half])
+    spans = stretches(replace(plain, run=run, time=time), marked)
+    assert len(spans) == 2 and all(end > start for start, end in spans)

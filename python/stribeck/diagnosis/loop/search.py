@@ -62,8 +62,8 @@ class Search:
             shorter = self._needed(shorter)
             yield shorter
             path = yield from self._grown(self._asked(shorter))
-            if not trials:
-                path = self._beyond(path, trials_of(path.last))
+            # What an imitation has hidden beside it may be two effects that show only together.
+            path = self._beyond(path, trials_of(path.last))
         path = settled(path, self.least_fall, self.seed)
         last = path.last if path.last.findings else with_visibility(path.last)
         said = replace(last, demoted=(*path.demoted, *last.demoted))

@@ -71,7 +71,8 @@ def _remedy(view: View, low: float, high: float) -> str:
         if _plausible(gain * low + offset, gain * high + offset):
             column = view.column("temperature")
             return f"give {option('unit', f'{column}={unit}')}"
-    for scale in _SCALES:
+    # A scale moves no value across absolute zero.
+    for scale in _SCALES if low >= ABSOLUTE_ZERO else ():
         if _plausible(low / scale, high / scale):
             return f"give {view.derived('temperature', f'{{}}/{scale:g}')}"
     return f"leave it out with {option('map', 'temperature=none')}"

@@ -154,6 +154,11 @@ def test_trust_accepts_no_temperature_below_absolute_zero(write):
     for trust in (False, True):
         with pytest.raises(RecordingError, match=sentence):
             sb.fit("coulomb", read(path, trust=trust), starts=1)
+    # A scale of kelvins does not help.
+    frame = joint().rename({"temperature": "temp_K"}).with_columns(temp_K=pl.lit(-5.0))
+    checks = read(write(frame, "negative.parquet")).checks
+    (remedy,) = [check.do for check in checks if check.check == "temperature"]
+    assert str(remedy).startswith("leave it out")
 
 
 @pytest.mark.parametrize("mark", [-999.0, 9999.0])
