@@ -140,7 +140,8 @@ def _varying(fit: Fit, varying: VaryingFriction) -> str:
 
 def _lasting(share: float, *, tested: bool) -> str:
     """What lasts; a flexible regressor was `tested` on the residual, and learned little of it."""
-    said = f"what lasts longer than the noise of a sensor is {number(100.0 * share, 2)} % of that error, "
+    size = f"{number(100.0 * share, 2)} % of that error"
+    said = f"what lasts longer than the noise of a sensor is {size}, "
     if tested:
         return f"{said}but a flexible regressor finds hardly any of it in the recorded channels"
     return f"{said}and this motion does not tell whether it depends on the recorded channels"
