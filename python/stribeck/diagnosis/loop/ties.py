@@ -123,7 +123,7 @@ class _Others:
         if self.fits_exactly and self._adds_to(by.fit):
             return 0.0
         effects, fits = (self.finding.effect, effect), (self.current, by.fit)
-        if self.without and is_undecided(effects, fits, self.without, self.structure):
+        if self.without is not None and is_undecided(effects, fits, self.without, self.structure):
             return 1.0
         weight = tie_weight(difference(by.fit, self.current).statistic)
         if is_friction(effect) or not is_friction(self.finding.effect):

@@ -11,7 +11,7 @@ from stribeck.diagnosis.trials.evidence import held_out_square
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
 
-#: Least share of what the better effect explains that the other explains too.
+#: Least share of what the better effect explains that a tie explains too.
 ALIKE = 0.9
 #: Largest difference of the two, as a share of the structure that remains.
 SMALL = 0.05

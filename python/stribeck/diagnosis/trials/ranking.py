@@ -12,7 +12,7 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed, impossible
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
-from stribeck.diagnosis.trials.beside_structure import is_undecided, structure_share
+from stribeck.diagnosis.trials.beside_structure import ALIKE, is_undecided, structure_share
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.known_size import has_known_size
@@ -33,9 +33,6 @@ from stribeck.effect.describe import is_friction, where
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import simpler_effect
 
-#: An effect that brings this share of the fall of the best, adds nothing to it and has no more
-#: parameters, is a tie.
-ALIKE = 0.9
 #: A tie with a smaller weight changes no confidence that is shown.
 NEGLIGIBLE = 0.005
 #: An effect that explains less than this share of the squared error above the noise floor, and of
@@ -168,6 +165,7 @@ def _tied(
     level, least_left = held_out_square(before, before), held_out_square(best.fit, before)
 
     def is_alike(t: Trial) -> bool:
+        """Whether it explains nearly as much, with no more parameters."""
         fall = level - held_out_square(t.fit, before)
         return fall >= ALIKE * (level - least_left) and t.parameters <= best.parameters
 
