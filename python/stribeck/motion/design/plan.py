@@ -99,6 +99,7 @@ def plan(
     wanted = Wanted.of(reference, residual, show, tuple(dict.fromkeys(separate)))
     kind, motion = search(families, wanted, setting, duration, samples, seed)
     planned = setting.recording(motion, samples)
+    _check_moving(planned, limits)
     before, after = _sights(wanted, setting, planned, fitted, present)
     return Plan(
         model=of.model,
@@ -126,6 +127,18 @@ def _setting(
     _check_load(effects, setting)
     _check_speed(limits, setting)
     return setting
+
+
+def _check_moving(planned: Recording, limits: Limits) -> None:
+    """Refuse limits within which no sample of the motion counts as moving."""
+    if planned.moving.any():
+        return
+    unit = planned.position_unit
+    raise SpecError(
+        f"between {limits.low:g} and {limits.high:g} {unit} no sample at {planned.rate_hz:g} Hz "
+        f"moves faster than {planned.velocity_threshold:.3g} {unit}/s, above which samples are "
+        f"scored: give a longer range with {option('position')}, or a higher {option('rate')}"
+    )
 
 
 def _reference(setting: Setting, moves: PassMotions, rate: float) -> Problem:

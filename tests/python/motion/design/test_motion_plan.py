@@ -256,3 +256,9 @@ def test_plan_text_fits_a_terminal(planned: sb.Plan) -> None:
     assert max(map(len, text.splitlines())) <= 98
     assert "offset" in text and "planned" in text
     assert planned.plot().get_size_inches()[0] > 5
+
+
+def test_limits_within_which_nothing_is_scored_are_refused(narrow: sb.Fit) -> None:
+    tiny = {"position": (0.0, 1e-6), "speed": 2.0, "acceleration": 10.0}
+    with pytest.raises(sb.SpecError, match="no sample at 10 Hz moves faster than"):
+        sb.plan(narrow, show=["presliding"], duration=10.0, rate=10.0, **tiny)
