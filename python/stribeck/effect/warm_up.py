@@ -38,8 +38,10 @@ def _where(before: Identified, after: Identified) -> str:
     m = after.model
     share, zero = m.value("warm_up"), m.value("warm_up_zero")
     settles = m.constants["duration"] / m.value("warm_up_rate")
+    # A gain of the model is that at the end.
+    than = ", compared with the end," if "gain" in m.effects else ""
     return (
-        f"at the start the torque channel shows {number(100 * abs(share))} % "
+        f"at the start the torque channel shows{than} {number(100 * abs(share))} % "
         f"{'too much' if share > 0 else 'too little'} of all torque and is shifted by "
         f"{number(zero)} {m.torque_unit}; both settle with a time constant of {number(settles)} s"
     )

@@ -18,8 +18,9 @@ def with_values(spec: str, **values: float) -> Identified:
         sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5),
         box={"velocity": (-1.0, 1.0), "load_torque": (-9.0, 9.0)},
     )
+    constants = {"load": {"reference_load": 4.0}, "warm_up": {"duration": 60.0}}
     for effect in spec.split("+"):
-        made = made.with_effect(effect, {"reference_load": 4.0} if effect == "load" else {})
+        made = made.with_effect(effect, constants.get(effect, {}))
     known = dict(zip(made.names, made.values, strict=True)) | values
     model = made.with_values([known[name] for name in made.names])  # type: ignore[arg-type]
     return cast(Identified, SimpleNamespace(model=model))
@@ -56,3 +57,13 @@ def test_a_load_torque_that_was_smoothed_does_the_same_as_elasticity(
     assert (
         "a load torque averaged over 0.09 s does the same" in where("elasticity", after, after)
     ) is said
+
+
+@pytest.mark.parametrize("spec", ["warm_up", "gain+warm_up"])
+def test_an_amplifier_that_warms_up_beside_a_gain_is_compared_with_its_end(spec: str) -> None:
+    """The gain of the model is that at the end, so that both may cancel at the start."""
+    values = {"gain": 0.1} if "gain" in spec else {}
+    after = with_values(spec, warm_up=-0.1, warm_up_zero=0.0, warm_up_rate=3.0, **values)
+    text = where("warm_up", after, after)
+    assert ("shows, compared with the end, 10 % too little" in text) == ("gain" in spec)
+    assert "time constant of 20 s" in text
