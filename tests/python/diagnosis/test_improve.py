@@ -196,6 +196,7 @@ def test_a_diagnosis_states_the_floor_of_all_samples(recording: sb.Recording) ->
         assert found.noise_floor == noise_floor(best)
 
 
+@pytest.mark.slow
 def test_what_remains_is_that_of_all_samples(recording: sb.Recording) -> None:
     """The models are identified on all samples, and the errors are theirs."""
     found = sb.improve("coulomb", recording, sample_rows=recording.rows // 2, starts=2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 import stribeck as sb
 from stribeck.diagnosis.diagnose import SHAPE
 from stribeck.diagnosis.loop.exchange import exchanges, ties_of
@@ -16,6 +17,7 @@ def names(recording: sb.Recording) -> list[str]:
     return [step.finding.effect for step in sb.improve("coulomb", recording).steps]
 
 
+@pytest.mark.slow
 def test_load_and_a_wrong_torque_constant_are_no_quadrants(tmp_path: Path) -> None:
     """Both together differ between motoring and generating, and have fewer parameters."""
     frame = joint()
@@ -26,6 +28,7 @@ def test_load_and_a_wrong_torque_constant_are_no_quadrants(tmp_path: Path) -> No
     assert sorted(names(recording)) == ["gain", "load"]
 
 
+@pytest.mark.slow
 def test_quadrants_that_neither_makes_are_named(tmp_path: Path) -> None:
     """A load dependence that grows with speed while the joint drives the load."""
     frame = joint()

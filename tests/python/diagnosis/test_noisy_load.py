@@ -57,6 +57,7 @@ def idle_joint(velocity_noise: float, *, load: str = "") -> pl.DataFrame:
 
 @pytest.mark.parametrize("velocity_noise", [2e-3, 6e-3])
 @pytest.mark.parametrize("given", [False, True], ids=["inertia identified", "inertia given"])
+@pytest.mark.slow
 def test_noise_of_the_acceleration_is_no_effect(
     tmp_path: Path, velocity_noise: float, given: bool
 ) -> None:

@@ -104,6 +104,7 @@ def test_what_explains_less_than_what_remains_is_demoted(tmp_path: Path) -> None
     assert step.finding.effect == "load" and step.finding.confidence > 0.9
 
 
+@pytest.mark.slow
 def test_what_explains_hardly_more_than_what_remains_is_not_certain(tmp_path: Path) -> None:
     extra = gap(0.6, 0.9) + load_dependence(0.06)
     found = sb.improve("coulomb", record(tmp_path, joint(extra)), starts=2)

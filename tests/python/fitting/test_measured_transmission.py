@@ -29,6 +29,7 @@ def measured(folder: Path, **sizes: float) -> Transmission:
     return measure_transmission(read(folder, **sizes))
 
 
+@pytest.mark.slow
 def test_a_stiff_spring_without_a_gap(tmp_path: Path) -> None:
     made = measured(tmp_path)
     assert made.stiffness.value == pytest.approx(2e4, rel=0.005)
@@ -39,6 +40,7 @@ def test_a_stiff_spring_without_a_gap(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("gap", [2e-4, 1e-3])
 @pytest.mark.parametrize("encoder", [{"quantum": STEP_17_BIT}, {"noise": 2e-5}])
+@pytest.mark.slow
 def test_a_gap_is_measured_through_quantisation_and_noise(
     tmp_path: Path, gap: float, encoder: dict[str, float]
 ) -> None:

@@ -33,6 +33,7 @@ def test_stretches_begin_segments_and_keep_their_blocks(recording: sb.Recording)
     assert excerpt(recording, recording.rows) is recording
 
 
+@pytest.mark.slow
 def test_causes_found_on_stretches_are_counted_on_all_rows(recording: sb.Recording) -> None:
     whole = sb.improve("coulomb", recording)
     found = sb.improve("coulomb", recording, sample_rows=2000)

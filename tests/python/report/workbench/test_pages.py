@@ -133,6 +133,7 @@ def test_a_column_is_read_as_a_channel(tmp_path: Path) -> None:
     assert bench.joint.recording.columns["velocity"].source == "speed of it"
 
 
+@pytest.mark.slow
 def test_several_files_are_runs_of_one_joint(tmp_path: Path) -> None:
     files = [str(tmp_path / f"run{k}.csv") for k in (1, 2)]
     for seed, path in enumerate(files):
