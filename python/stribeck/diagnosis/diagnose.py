@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
+#: Why an effect is not claimed that the model explains in another form.
 SHAPE = (
     "the effects of the model would explain what it does, were the form of their torque a little "
     "different"
@@ -222,4 +223,4 @@ def _named(found: Diagnosis) -> set[str]:
     """Effects that a result names."""
     claims = (*found.findings, *found.demoted)
     named = {e for finding in claims for e in (finding.effect, *finding.indistinguishable_from)}
-    return named | {row.effect for row in (*found.not_claimed, *found.explained)}
+    return named | {row.effect for row in found.unclaimed}

@@ -201,6 +201,11 @@ class Diagnosis(Plotted):
     pair: Pair | None = None
 
     @property
+    def unclaimed(self) -> tuple[NotClaimed, ...]:
+        """All effects that lower the error and are not claimed, and why."""
+        return (*self.not_claimed, *self.explained)
+
+    @property
     def has_doubts(self) -> bool:
         """Whether effects lower the held-out error that are demoted or not claimed."""
         return bool(self.demoted or self.not_claimed)
@@ -220,7 +225,7 @@ class Diagnosis(Plotted):
             "noise_floor": self.noise_floor.value,
             "verdict": self.verdict,
             "findings": [row.to_dict() for row in (*self.findings, *self.demoted)],
-            "not_claimed": [row.to_dict() for row in (*self.not_claimed, *self.explained)],
+            "not_claimed": [row.to_dict() for row in self.unclaimed],
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
             "explainable": self.explainable.to_dict() if self.explainable else None,

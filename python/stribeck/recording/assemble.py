@@ -28,7 +28,7 @@ from stribeck.recording.reference import check_reference, load_reference, with_r
 from stribeck.recording.sampled import sampled
 from stribeck.recording.samples import check_time, drop_missing, in_runs
 from stribeck.recording.torque_at import guess_torque_at
-from stribeck.recording.unused import say_unused
+from stribeck.recording.unused import unused_numbers
 from stribeck.recording.weights import check_scored_weights
 
 __all__ = [
@@ -90,7 +90,7 @@ def load_channels(
     require(prepared)
     data, run, run_names, dropped = _loaded(prepared, rows, mend=mend, one_run=one_run)
     kind, torque_unit, position_unit = settle_units(data)
-    say_unused(data, kind)
+    data.notes.extend(unused_numbers(data, kind))
     _say_assumed(data, kind)
     _say_proposed(data)
     layout = Layout(joint, kind, torque_unit, position_unit, run, run_names, dropped)
@@ -209,12 +209,11 @@ def _say_proposed(data: Channels) -> None:
     """Note the columns that may hold an optional channel which was not found."""
     names = data.prepared.table.columns
     used = {choice.source for choice in data.prepared.choices.values()}
+    decided = {*data.prepared.choices, *data.prepared.settings.maps}
     for row in propose(names, used, data.prepared.settings.joint):
-        left_out = {*data.prepared.choices, *data.prepared.settings.maps}
-        if row.channel in WORTH_A_NOTE and row.channel not in left_out:
-            what = row.channel.replace("_", " ")
+        if row.channel in WORTH_A_NOTE and row.channel not in decided:
             data.notes.append(
-                f"'{row.column}' is not read: if it is the {what} of the joint, give "
+                f"'{row.column}' is not read: if it is the {row.channel} of the joint, give "
                 f"{option('map', f'{row.channel}={row.column}')}"
             )
 

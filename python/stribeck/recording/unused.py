@@ -7,15 +7,11 @@ from collections.abc import Iterator
 from stribeck.base.errors import option
 from stribeck.recording.channels import Channels
 
-__all__ = ["say_unused"]
+__all__ = ["unused_numbers"]
 
 
-def say_unused(data: Channels, kind: str) -> None:
-    """Note each number that changes nothing, and why; `kind` is that of the joint."""
-    data.notes.extend(_unused(data, kind))
-
-
-def _unused(data: Channels, kind: str) -> Iterator[str]:
+def unused_numbers(data: Channels, kind: str) -> Iterator[str]:
+    """A note for each number that changes nothing, with the reason; `kind` is that of the joint."""
     mechanics, choices = data.prepared.settings.mechanics, data.prepared.choices
     direct = next((c for c in ("friction_torque", "torque") if c in choices), "torque")
     # A current that was converted is the choice of the torque as well.

@@ -107,8 +107,7 @@ def doubts(diagnosis: Diagnosis) -> list[tuple[str, list[str]]]:
         f"{row.effect} (confidence {confidence_text(row.confidence)}): {row.demoted}."
         for row in diagnosis.demoted
     ]
-    others = (*diagnosis.not_claimed, *diagnosis.explained)
-    refused = [f"{row.effect}: {row.reason}." for row in others]
+    refused = [f"{row.effect}: {row.reason}." for row in diagnosis.unclaimed]
     return [row for row in ((DEMOTED, demoted), (NOT_CLAIMED, refused)) if row[1]]
 
 

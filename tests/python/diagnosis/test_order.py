@@ -105,7 +105,9 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
         "is_friction": lambda effect: effect in made.friction,
         "where": lambda *rest: "here",
         "structure_share": lambda fit, floor: made.structure,
-        "is_undecided": lambda effects, fits, before, left: effects[1] in made.undecided,
+        "is_undecided": lambda effects, fits, before, left: (
+            left > 0.0 and effects[1] in made.undecided
+        ),
         "alike": lambda effect, before, after: made.alike.get(effect, ()),
         "Sifted": Judge,
     }

@@ -105,9 +105,7 @@ class Improvement(Plotted):
             "relative_residual_base": self.base.relative_residual,
             "stopped": self.stopped,
             "demoted": [row.to_dict() for row in self.last.demoted],
-            "not_claimed": [
-                row.to_dict() for row in (*self.last.not_claimed, *self.last.explained)
-            ],
+            "not_claimed": [row.to_dict() for row in self.last.unclaimed],
             "untestable": [row.to_dict() for row in self.untestable],
             "unexplained": self.unexplained.to_dict(),
             "explainable": self.last.explainable.to_dict() if self.last.explainable else None,

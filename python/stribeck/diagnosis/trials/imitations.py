@@ -55,6 +55,16 @@ class _Rivals:
         }
         return cls(before, alone, beside_causes(before, columns))
 
+    def of(self, effect: str) -> _Rivals | None:
+        """Those that act on the fit without an effect; None where there are none."""
+        acting = without_effect(
+            {what: refit.columns for what, refit in self.alone.items()}, effect, self.before
+        )
+        if len(acting) == len(self.alone):
+            return self
+        alone = {what: self.alone[what] for what in acting}
+        return _Rivals(self.before, alone, beside_causes(self.before, acting)) if acting else None
+
     def leave(self, trial: Trial, tried: int, needed: float) -> bool:
         """Whether a trial lowers the error beside all of them, by at least the share `needed`."""
         fall, p_value = self.together.beside_columns(trial)
@@ -88,12 +98,9 @@ def without_imitations(
     of_measurement = _Rivals.beside(before, columns)
     for trial in suspects:
         unseen = _lacks_simpler(trial, before, passed)
-        rivals = _with_zero(before) if unseen else of_measurement
-        acting = without_effect(columns, trial.effect, before)
-        if not acting:
+        rivals = _with_zero(before) if unseen else of_measurement.of(trial.effect)
+        if rivals is None:
             continue
-        if len(acting) < len(columns):
-            rivals = _Rivals.beside(before, acting)
         better = rivals.advantage(trial)
         if unseen:
             # Its simpler part shows nothing alone: the wider one must also add to the causes.

@@ -207,13 +207,11 @@ def _doubtful_ties(
     """
     rivals = () if is_friction(best.effect) else sift.rivals
     trials = [*(row.trial for row in (*sift.demoted, *sift.refused)), *rivals]
-    kind = is_friction(best.effect)
-    of_other_kind = any(is_friction(trial.effect) != kind for trial in trials)
-    left = structure_share(best.fit, floor) if of_other_kind else 0.0
+    left = structure_share(best.fit, floor)
 
     def weight(trial: Trial) -> float:
         effects, fits = (best.effect, trial.effect), (best.fit, trial.fit)
-        if left > 0.0 and is_undecided(effects, fits, before, left):
+        if is_undecided(effects, fits, before, left):
             return 1.0
         return tie_weight(tie_statistic(best, trial))
 

@@ -19,9 +19,10 @@ __all__ = ["unwrap"]
 _LONG = 0.5
 #: Every other step is shorter than this share of it.
 _SHORT = 0.25
+#: Turns in degrees.
+_DEGREES = (360.0, 720.0)
 #: Periods that positions wrap with: turns in rad and in degrees, and +-12.5 rad of actuators with
 #: a 16-bit position.
-_DEGREES = (360.0, 720.0)
 _PERIODS = (2.0 * np.pi, 4.0 * np.pi, 8.0 * np.pi, 25.0, *_DEGREES)
 #: A measured period within this share of a known one is that one.
 _NEAR = 2e-3
