@@ -82,6 +82,10 @@ constants! {
     duration ["s"] = 3600.0, |x| x > 0.0;
     /// Torque at which the saturation exponent has no influence.
     reference_torque ["T"] = 1.0, |x| x > 0.0;
+    /// Period of the load's oscillation on the drive train; 0 if it follows without one.
+    resonance_period ["s"] = 0.0, |x| x >= 0.0;
+    /// Share of critical damping of that oscillation.
+    resonance_damping ["1"] = 0.1, |x| x > 0.0 && x < 1.0;
     /// Origin of temperature of a law; outside the data if the law is singular there.
     base_temperature ["degC"] = 0.0, |_| true;
     /// Speed over which the law smooths the sign of the velocity.

@@ -18,7 +18,7 @@ pub struct Sample<S> {
     pub temperature_rate: S,
     /// Load torque `tl` (T): all torque at the joint except friction.
     pub load_torque: S,
-    /// Second time derivative of the load torque (T/s2).
+    /// Second time derivative of the load torque (T/s2); behind a resonance that of the spring's.
     pub load_torque_curvature: S,
     /// Motor torque `tm` (T).
     pub motor_torque: S,

@@ -163,7 +163,8 @@ typedef struct {
    */
   double load_torque;
   /**
-   * Second time derivative of the load torque (N m/s2 or N/s2).
+   * Second time derivative of the load torque (N m/s2 or N/s2); behind a resonance that of the
+   * torque in the spring.
    */
   double load_torque_curvature;
   /**
@@ -260,7 +261,8 @@ typedef struct {
    */
   float load_torque;
   /**
-   * Second time derivative of the load torque (N m/s2 or N/s2).
+   * Second time derivative of the load torque (N m/s2 or N/s2); behind a resonance that of the
+   * torque in the spring.
    */
   float load_torque_curvature;
   /**

@@ -67,7 +67,8 @@ pub struct StribeckSample<S> {
     pub temperature: S,
     /// Load torque: all torque at the joint except friction (N m or N).
     pub load_torque: S,
-    /// Second time derivative of the load torque (N m/s2 or N/s2).
+    /// Second time derivative of the load torque (N m/s2 or N/s2); behind a resonance that of the
+    /// torque in the spring.
     pub load_torque_curvature: S,
     /// Motor torque (N m or N).
     pub motor_torque: S,

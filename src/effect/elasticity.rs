@@ -13,9 +13,15 @@ parameters! {
     /// With the motion measured at the joint the motor turns `tl/k` further and its inertia `Jm`
     /// needs the torque `Jm/k d2(tl)/dt2`. With the motion measured at the motor the joint turns
     /// `tl/k` less and its inertia `Jl` adds `-Jl/k d2(tl)/dt2`. The sign of `c` tells which, and
-    /// `1/sqrt|c|` is the angular frequency of that inertia on the spring (Spong 1987). First order
-    /// in `1/k`, with friction on the motor's side of the spring; the change of gravity with the
-    /// twist is slow in comparison and neglected.
+    /// `1/sqrt|c|` is the angular frequency of that inertia on the spring (Spong 1987). Friction is on
+    /// the motor's side of the spring; the change of gravity with the twist is slow in comparison and
+    /// neglected.
+    ///
+    /// Where the load torque changes faster than the drive train can follow, the joint oscillates
+    /// about the motor, and the torque `ts` of the spring takes the place of the load torque: `tl`
+    /// behind a resonance with the period `T` and the share `d` of critical damping. With `T = 0`
+    /// the effect is the first order in `1/k`. The column holds the second derivative of `ts`;
+    /// `T` and `d` only tell how it was made.
     Elasticity {
         /// Inertia over stiffness: positive for the motor's inertia, negative for the joint's.
         elasticity: "c" ["s2"] -1.0 .. 1.0, start 0.0, SquareTime, Additive;
@@ -29,11 +35,11 @@ impl<S: Real> FrictionEffect<S> for Elasticity<S> {
         title: "Elasticity",
         what: "The drive train twists under the load torque, so motor and joint have \
                different accelerations.",
-        formula: "tf + c d2(tl)/dt2",
+        formula: "tf + c d2(ts)/dt2; tl = ts + d T/pi dts/dt + (T/(2 pi))^2 d2(ts)/dt2",
         needs: "a load torque that changes fast, or positions on both sides of the drive train",
         beyond: None,
         channels: &[Channel::LoadTorqueCurvature],
-        constants: &[],
+        constants: &["resonance_period", "resonance_damping"],
         parameters: Self::TABLE,
     };
 

@@ -14,6 +14,7 @@ mod forest;
 mod low_pass;
 mod problem;
 mod reduced;
+mod resonance;
 mod separable;
 mod threads;
 mod triangle;
@@ -26,6 +27,7 @@ pub use forest::{Forest, ForestError};
 pub use low_pass::LowPass;
 pub use problem::{NOT_SCORED, Problem};
 pub use reduced::{Reduced, reduced};
+pub use resonance::Resonance;
 pub use separable::{Bounds, LeastSquares, Outcome, Search, Steps, minimise};
 #[cfg(feature = "python")]
 pub(crate) use threads::side_by_side;

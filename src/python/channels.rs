@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use super::columns::{Array, contiguous};
 use super::normal::row_by_row;
 use super::{ModelError, refuse};
-use crate::identify::{Forest, LowPass, divided_differences as scaled_differences};
+use crate::identify::{Forest, LowPass, Resonance, divided_differences as scaled_differences};
 
 type Matrix<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
@@ -51,6 +51,28 @@ pub fn low_pass<'py>(
         }
     });
     Ok(filtered.into_pyarray(py))
+}
+
+/// Second derivative of the torque of a spring on which the load resonates, array [n].
+///
+/// `steps` [n] are the times since the sample before (s), `load` [n] is the load torque of a rigid
+/// drive train.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn spring_torque_curvature<'py>(
+    py: Python<'py>,
+    steps: Array<'py>,
+    load: Array<'py>,
+    period: f64,
+    damping: f64,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let resonance = Resonance::new(period, damping).ok_or_else(|| {
+        ModelError::new_err(
+            "the period of a resonance must be above zero, its damping between zero and one",
+        )
+    })?;
+    let (steps, load) = (contiguous(&steps), contiguous(&load));
+    Ok(py.detach(|| resonance.curvature(&steps, &load)).into_pyarray(py))
 }
 
 /// What `trees` extremely randomised trees predict for the rows of `unseen` `[k, n]`, array `[k]`,

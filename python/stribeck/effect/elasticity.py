@@ -8,6 +8,7 @@ from stribeck.base.errors import option
 from stribeck.effect.base import (
     Array,
     Effect,
+    GeneratedRecording,
     Identified,
     JointSizes,
     Obstacle,
@@ -15,16 +16,20 @@ from stribeck.effect.base import (
     number,
 )
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.resonance import DAMPINGS, best_resonance, resonances
 from stribeck.models.model import Model
 from stribeck.recording.derive import Smoother
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import noise_level
+from stribeck.recording.spring_torque import spring_torque_curvature
 
 #: A drive train that resonates at a lower frequency shows in any joint, Hz.
 SOFT_DRIVE = 5.0
 #: Least torque that such a drive train must show, as shares of the load torque and of the noise:
 #: ten thousand samples or more show a fiftieth of their noise.
 TWIST_SHARE, TWIST_NOISE = 1e-3, 0.02
+#: Periods of other resonances that the form of one includes, as multiples.
+NEAR = (0.8, 1.25)
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
@@ -53,6 +58,22 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     )
 
 
+def _constants_beside(
+    recording: Recording, _: Array | None, residual: Array | None
+) -> dict[str, float]:
+    period, damping = best_resonance(recording, residual)
+    return {"resonance_period": period, "resonance_damping": damping}
+
+
+def _generated_constants(_: GeneratedRecording) -> dict[str, float]:
+    return {"resonance_period": 0.0, "resonance_damping": DAMPINGS[0]}
+
+
+def _forms(recording: Recording) -> int:
+    """Resonances from which the best is chosen, and none."""
+    return 1 + len(resonances(recording))
+
+
 def _refusal(model: Model, recording: Recording) -> str | None:
     if recording.load_torque is not None:
         return None
@@ -63,7 +84,14 @@ def _refusal(model: Model, recording: Recording) -> str | None:
 
 
 def _where(before: Identified, after: Identified) -> str:
-    share = after.model.value("elasticity")
+    share, constants = after.model.value("elasticity"), after.model.core.constants
+    if period := constants["resonance_period"]:
+        carried = -share * (2.0 * np.pi / period) ** 2
+        return (
+            f"the residual oscillates as if {number(100.0 * carried, 2)} % of the load torque "
+            f"drove an inertia on a drive train that resonates at {number(1.0 / period)} Hz with "
+            f"{number(100.0 * constants['resonance_damping'], 2)} % of critical damping"
+        )
     side = "motor" if share > 0 else "joint"
     hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
     return (
@@ -90,6 +118,8 @@ def _unresolved(after: Identified) -> str | None:
     A drive train that twists under the inertia of the motor has the other sign.
     """
     share, period = after.model.value("elasticity"), after.recording.scales()["sample_period"]
+    if after.model.core.constants["resonance_period"]:
+        return None
     if not -(period**2) <= share < 0.0:
         return None
     hertz = 1.0 / (2.0 * np.pi * np.sqrt(-share))
@@ -100,14 +130,20 @@ def _unresolved(after: Identified) -> str | None:
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:
-    """Damping of the twist, and the share of the motor's inertia in the torque of the spring."""
-    r = fit.recording
+    """Damping of the twist, the share of the motor's inertia, and resonances that differ a little."""
+    r, constants = fit.recording, fit.model.core.constants
     if r.load_torque is None:
         return []
+    period, damping = constants["resonance_period"], constants["resonance_damping"]
+    near = [
+        spring_torque_curvature(r, period=by * period, damping=damping)
+        for by in NEAR
+        if period > 0.0
+    ]
     smoother = Smoother(r.time, r.segment, None)
-    damping = smoother.smooth(r.denoised("load_torque"), 1)
+    rate = smoother.smooth(r.denoised("load_torque"), 1)
     motor = smoother.smooth(r.acceleration_smooth, 2)
-    return [damping[fit.rows], motor[fit.rows]]
+    return [x[fit.rows] for x in (rate, motor, *near) if x is not None]
 
 
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
@@ -120,8 +156,11 @@ EFFECT = Effect(
     obstacle=_obstacle,
     where=_where,
     plausible=_plausible,
+    constants_beside=_constants_beside,
+    generated_constants=_generated_constants,
     refusal=_refusal,
     flexible_shape=_flexible_shape,
+    forms=_forms,
     unresolved=_unresolved,
     design_note=(
         "a motion at one end of the drive train shows its twist only where the load torque changes "

@@ -20,6 +20,7 @@ from stribeck.identify.weights import root_weights
 from stribeck.models.channels import ChannelArguments
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
+from stribeck.recording.spring_torque import spring_torque_curvature
 
 Array = NDArray[np.float64]
 
@@ -104,10 +105,15 @@ class Problem:
 
     @cached_property
     def _load_curvature(self) -> Array | None:
-        """Second derivative of the load torque, for models that read it, array [n]."""
+        """Second derivative of the torque of the spring, for models that read it, array [n]."""
         if "elasticity" not in self.model.effects:
             return None
-        return self.recording.load_torque_curvature
+        constants = self.model.core.constants
+        return spring_torque_curvature(
+            self.recording,
+            period=constants["resonance_period"],
+            damping=constants["resonance_damping"],
+        )
 
     @cached_property
     def _temperature_rate(self) -> Array | None:

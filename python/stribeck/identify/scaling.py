@@ -182,10 +182,13 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
     if not np.any(np.isfinite(spec.values)):
         # Known values are valid only with the constants that they came with.
         constants = {**law_constants(spec.law, recording), **constants}
+    known = {name for name, x in zip(spec.names, spec.values, strict=True) if np.isfinite(x)}
     for effect in spec.effects:
+        row = catalog()["effects"][effect]
         # The period of a ripple takes milliseconds to find.
-        if not constants.keys() >= set(catalog()["effects"][effect]["constants"]):
-            constants = {**effect_constants(effect, recording), **constants}
+        if not constants.keys() >= set(row["constants"]):
+            if not known.issuperset(parameter["name"] for parameter in row["parameters"]):
+                constants = {**effect_constants(effect, recording), **constants}
     constants.update(known_constants(recording))
     made = Model(
         law=spec.law,
@@ -200,8 +203,8 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
         drive=recording.drive,
     )
     check_channels(made, recording)
-    known = dict(zip(spec.names, spec.values, strict=True))
-    return made.with_values([known.get(name, np.nan) for name in made.names])
+    values = dict(zip(spec.names, spec.values, strict=True))
+    return made.with_values([values.get(name, np.nan) for name in made.names])
 
 
 def check_channels(model: Model, recording: Recording) -> None:

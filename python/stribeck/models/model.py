@@ -300,8 +300,8 @@ class Model(Shown):
         time : array [n]
             Time since the start of the recording in s, for `drift`.
         load_torque_curvature, temperature_rate : array [n]
-            Second derivative of the load torque by time, N m/s2 or N/s2, for `elasticity`; first
-            derivative of the temperature by time, K/s, for `thermometer_lag`.
+            Second derivative of the load torque, behind a resonance of the spring's torque,
+            N m/s2 or N/s2, for `elasticity`; first of the temperature, K/s, for `thermometer_lag`.
         precision
             ``"single"`` gives the bits of a controller that computes in 32 bits.
         out : array [n]

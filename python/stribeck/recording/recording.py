@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import polars as pl
+from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.base.shown import Plotted
@@ -321,7 +322,7 @@ class Recording(Plotted):
         return {}
 
     @cached_property
-    def kept(self) -> dict[str, Ints]:
+    def kept(self) -> dict[str, NDArray[Any]]:
         """Arrays [n] computed from this recording at some cost and kept, by name."""
         return {}
 

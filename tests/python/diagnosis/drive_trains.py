@@ -96,17 +96,25 @@ class TwoInertias:
         )
         return dict(zip(names, np.array(made).T, strict=True))
 
-    def recorded(self, side: str, rows: int = 6000, seed: int = 4) -> pl.DataFrame:
+    def resonance(self) -> float:
+        """Frequency in Hz of the load on its spring."""
+        return float(np.sqrt(self.stiffness / self.load)) / (2.0 * np.pi)
+
+    def recorded(
+        self, side: str, rows: int = 6000, seed: int = 4, *, seen: bool = False
+    ) -> pl.DataFrame:
         """What a recording with the sensors on one `side`, motor or load, holds.
 
         The load torque is that of a rigid joint of the same inertia and weight: one that moves as
-        the motor was told to, or as the joint was seen to.
+        the motor was told to, or, if `seen`, as it moved; or as the joint was seen to.
         """
         made = self.simulated(rows)
         rng = np.random.default_rng(seed)
         t = np.arange(rows) / RATE
         q, v = made[side], made[f"{side}_speed"]
         wanted, _, a = reference(t) if side == "motor" else (q, v, made["load_acceleration"])
+        if side == "motor" and seen:
+            wanted, a = q, np.gradient(v, 1.0 / RATE)
         load = (self.motor + self.load) * a + self.weight * np.sin(wanted)
         return pl.DataFrame(
             {

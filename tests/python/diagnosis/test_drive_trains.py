@@ -53,6 +53,33 @@ def test_a_spring_between_two_inertias_is_elasticity(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+def test_a_load_that_oscillates_on_its_spring_is_elasticity_with_a_resonance(
+    tmp_path: Path,
+) -> None:
+    drive = TwoInertias()
+    # Without the start, at which the simulated spring is slack.
+    found = steps(tmp_path, drive.recorded("motor", seen=True)[400:])
+    first = next(iter(found))
+    assert first == "elasticity"
+    model = found[first].model
+    assert 1.0 / model.constants["resonance_period"] == pytest.approx(drive.resonance(), rel=0.1)
+    # Of the whole load torque only the part of the joint oscillates.
+    share = drive.load / (drive.motor + drive.load)
+    expected = -share * drive.load / drive.stiffness
+    assert model.value("elasticity") == pytest.approx(expected, rel=0.2)
+    plain = sb.fit("coulomb", found[first].recording)
+    assert found[first].rmse_held_out < 0.4 * plain.rmse_held_out
+
+
+def test_values_of_an_elasticity_keep_the_resonance_they_came_with(tmp_path: Path) -> None:
+    recording = record(tmp_path, TwoInertias().recorded("motor", rows=1000, seen=True))
+    values = {"coulomb_friction": 4.0, "viscous_friction": 2.0, "elasticity": -1e-4}
+    rigid = sb.model("coulomb+elasticity", **values)
+    stated = sb.evaluate(rigid, recording).model.core.constants["resonance_period"]
+    assert stated == 0.0
+
+
+@pytest.mark.slow
 def test_play_between_two_inertias_is_backlash(tmp_path: Path) -> None:
     drive = TwoInertias(play=0.005, stiffness=5000.0, damping=20.0)
     found = steps(tmp_path, drive.recorded("motor"))

@@ -1,6 +1,7 @@
-"""Noise of the load torque, where there is hardly any load torque.
+"""Noise of the load torque.
 
-Whatever takes a small load torque away there lowers the error by the noise that it removes.
+Whatever smooths the load torque lowers the error by the noise that it removes: elasticity does. So
+does whatever takes a load torque away that is small beside its noise.
 """
 
 from __future__ import annotations
@@ -17,11 +18,15 @@ SIZES = (1.0, 2.0, 4.0, 8.0)
 
 
 def _columns(fit: Fit) -> list[Array]:
-    load = load_torque(fit.model, fit.recording)
-    noise = 0.0 if load is None else load_noise(fit.recording, load)
-    if load is None or not noise > 0.0:
+    recording = fit.recording
+    load = load_torque(fit.model, recording)
+    if load is None:
         return []
-    return [load * np.exp(-((load / (size * noise)) ** 2)) for size in SIZES]
+    noise = load_noise(recording, load)
+    made = [load * np.exp(-((load / (size * noise)) ** 2)) for size in SIZES if noise > 0.0]
+    if recording.load_torque is not None:
+        made.append(recording.load_torque_smooth - load)
+    return [column for column in made if column.any()]
 
 
 NOISY_LOAD = MeasurementCause("noise of the load torque", _columns)

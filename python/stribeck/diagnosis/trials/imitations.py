@@ -1,9 +1,12 @@
-"""Friction effects that causes in the measurement explain as well.
+"""Effects that causes in the measurement explain as well.
 
 A filter, a lag, an amplifier that warms up or a wrong scale of the load leaves errors that friction
 can imitate. A friction effect stands if it explains something beside the columns of all these
 causes, or predicts better than they do. Otherwise it is not claimed where they predict better, and
 demoted where both do equally well.
+
+A drive train that twists smooths the load torque, as a filter of it does: it must stand beside the
+noise of the load torque, and is never certain where the others predict as well.
 """
 
 from __future__ import annotations
@@ -13,15 +16,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stribeck.diagnosis.measurement.noisy_load import NOISY_LOAD
 from stribeck.diagnosis.measurement.table import (
     least_factors,
     measurement_columns,
     without_effect,
 )
+from stribeck.diagnosis.trials.evidence import held_out_square
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
-from stribeck.effect.describe import is_friction
+from stribeck.effect.describe import is_drive_train, is_friction
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids, simpler_effect
 
@@ -30,6 +35,8 @@ ZERO = "a zero of the torque that is off"
 #: The highest confidence of an effect that predicts better than the causes in the measurement by no
 #: more than one standard error: about as often it is right on simulated recordings.
 NARROW = 0.95
+#: They explain much more than an effect where they bring so many times its gain.
+MUCH = 1.5
 
 
 def beside_causes(before: Fit, columns: Mapping[str, Array]) -> FlexibleRefit:
@@ -65,6 +72,11 @@ class _Rivals:
         alone = {what: self.alone[what] for what in acting}
         return _Rivals(self.before, alone, beside_causes(self.before, acting)) if acting else None
 
+    def only(self, what: str) -> _Rivals | None:
+        """One of them; None where it has no columns."""
+        one = self.alone.get(what)
+        return None if one is None else _Rivals(self.before, {what: one}, one)
+
     def leave(self, trial: Trial, tried: int, needed: float) -> bool:
         """Whether a trial lowers the error beside all of them, by at least the share `needed`."""
         fall, p_value = self.together.beside_columns(trial)
@@ -73,6 +85,17 @@ class _Rivals:
     def advantage(self, trial: Trial) -> float:
         """Standard errors by which they leave a larger held-out error than a trial."""
         return self.together.advantage(trial)
+
+    @property
+    def gain(self) -> float:
+        """Fall of the squared held-out error that all of them bring."""
+        level = held_out_square(self.before, self.before)
+        return level - float(np.sum(self.together.held_out**2))
+
+    def gain_of(self, trial: Trial) -> float:
+        """Fall of the squared held-out error that a trial brings."""
+        level = held_out_square(self.before, self.before)
+        return level - held_out_square(trial.fit, self.before)
 
     @property
     def largest(self) -> str:
@@ -91,12 +114,15 @@ def without_imitations(
         Trials that passed the test of evidence: of an effect that contains a simpler one among
         them, what it adds to that must stand too.
     """
-    suspects = [t for t in sift.stand if is_friction(t.effect)]
+    suspects = [t for t in sift.stand if is_friction(t.effect) or is_drive_train(t.effect)]
     columns = measurement_columns(before) if suspects else {}
     if not columns:
         return sift
     of_measurement = _Rivals.beside(before, columns)
     for trial in suspects:
+        if is_drive_train(trial.effect):
+            sift = _drive_train_judged(sift, trial, of_measurement, tried, least)
+            continue
         unseen = _lacks_simpler(trial, before, passed)
         rivals = _with_zero(before) if unseen else of_measurement.of(trial.effect)
         if rivals is None:
@@ -110,12 +136,7 @@ def without_imitations(
             needed = 0.0 if better > 0.0 else least / 2
             stands = better > TIE or rivals.leave(trial, tried, needed)
         if not stands:
-            doubted = Doubted(trial, f"{rivals.largest} explains it as well")
-            judged = Sifted(demoted=(doubted,))
-            if better < -TIE:
-                explained = f"{rivals.largest} explains all that it does, and more"
-                judged = Sifted(refused=(Doubted(trial, explained),))
-            sift = sift.instead(trial, judged)
+            sift = sift.instead(trial, _explained(trial, rivals, better))
             continue
         addition = _beside_simpler(trial, passed)
         if addition is not None and not addition.leave(trial, tried, least / 2):
@@ -124,6 +145,35 @@ def without_imitations(
         elif min(r.advantage(trial) for r in (rivals, addition) if r is not None) <= SIMPLEST:
             sift = sift.narrowed(trial)
     return sift
+
+
+def _explained(trial: Trial, rivals: _Rivals, better: float) -> Sifted:
+    """A trial that its rivals explain, predicting `better` than they do by standard errors."""
+    if better < -TIE:
+        reason = f"{rivals.largest} explains all that it does, and more"
+        return Sifted(refused=(Doubted(trial, reason),))
+    return Sifted(demoted=(Doubted(trial, f"{rivals.largest} explains it as well"),))
+
+
+def _drive_train_judged(
+    sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float
+) -> Sifted:
+    """The same, with an effect of the drive train judged beside causes in the measurement.
+
+    All of these together smooth the load torque as it does, so that what it adds to them says
+    little: they must explain much more.
+    """
+    noise = rivals.only(NOISY_LOAD.what)
+    if noise is not None:
+        better = noise.advantage(trial)
+        needed = 0.0 if better > 0.0 else least / 2
+        if better <= TIE and not noise.leave(trial, tried, needed):
+            return sift.instead(trial, _explained(trial, noise, better))
+    better = rivals.advantage(trial)
+    if better < -TIE and rivals.gain > MUCH * rivals.gain_of(trial):
+        if rivals.together.explains(trial, tried, least):
+            return sift.instead(trial, _explained(trial, rivals, better))
+    return sift.narrowed(trial) if better <= SIMPLEST else sift
 
 
 def standing(before: Fit, trial: Trial, passed: Sequence[Trial], least: float) -> Sifted:
