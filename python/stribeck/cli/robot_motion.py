@@ -9,7 +9,7 @@ import polars as pl
 
 from stribeck.base.errors import RecordingError, SpecError
 from stribeck.base.files import write_table
-from stribeck.cli.common import echo_result, json_option, say, seed_option
+from stribeck.cli.common import echo_json, echo_result, json_option, say, seed_option
 from stribeck.cli.outputs import TABLE, CheckedCommand
 from stribeck.cli.plan import position_range
 from stribeck.cli.unread import refuse_unread
@@ -90,6 +90,18 @@ def simulate(
         arm, friction, seconds=seconds, rate=usual, speed=speed, noise=noise, seed=seed
     )
     _write(made, output)
+    if as_json:
+        echo_json(
+            {
+                "path": output,
+                "joints": list(arm.names),
+                "rows": made.height,
+                "seconds": seconds,
+                "rate_hz": usual,
+                "noise": noise,
+                "seed": seed,
+            }
+        )
 
 
 def _write(made: pl.DataFrame, output: str) -> None:

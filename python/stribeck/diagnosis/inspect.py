@@ -22,7 +22,7 @@ from stribeck.models.rigid_body import own_load
 from stribeck.recording.assemble import nothing_moves
 from stribeck.recording.check import Check
 from stribeck.recording.load import Given, read_with
-from stribeck.recording.options import ReadArguments, ReadOptions
+from stribeck.recording.options import ReadArguments, ReadOptions, split_pairs
 from stribeck.recording.proposals import Proposal, propose
 from stribeck.recording.proposed_sidecar import write_sidecar
 from stribeck.recording.recording import Column, Recording
@@ -178,6 +178,8 @@ def inspect(path: Given, **reading: Unpack[ReadArguments]) -> Inspection:
     several = tables if len(tables) > 1 else ()
     table = joined_table(tables, text_of(path, files), options.joint)
     if table.problem is not None:
+        if _is_of_an_option(table.problem, options):
+            raise RecordingError(table.problem)
         proposed = _proposed(table, (), options.joint)
         return Inspection(table, (), {}, table.problem, proposed, several)
     joint = options.joint
@@ -199,6 +201,15 @@ def inspect(path: Given, **reading: Unpack[ReadArguments]) -> Inspection:
         if all(effect in answer for answer in answers)
     }
     return _with_findings(Inspection(table, recordings, common, None, proposed, several))
+
+
+def _is_of_an_option(problem: str, options: ReadOptions) -> bool:
+    """Whether a file cannot be read because of a column or a unit that the caller named."""
+    named = {name: split_pairs(name, getattr(options, name)) for name in ("map", "unit")}
+    given = [option(name, f"{k}={x}") for name, pairs in named.items() for k, x in pairs.items()]
+    if options.weights is not None:
+        given.append(option("weights", options.weights))
+    return any(text in problem for text in given)
 
 
 def _with_findings(inspection: Inspection) -> Inspection:

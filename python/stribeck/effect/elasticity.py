@@ -130,7 +130,7 @@ def _unresolved(after: Identified) -> str | None:
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:
-    """Damping of the twist, the share of the motor's inertia, and resonances that differ a little."""
+    """Damping of the twist, the share of the motor's inertia, and resonances that are near."""
     r, constants = fit.recording, fit.model.core.constants
     if r.load_torque is None:
         return []

@@ -91,11 +91,14 @@ def _shapes(
         rate = Smoother(recording.time, recording.segment, None).smooth(load, 1)
         v = recording.velocity
         basis = _basis(np.column_stack([np.sign(v), v, np.ones_like(v), load, rate])[rows])
-        springs = [spring_torque_curvature(recording, period=p, damping=d) for p, d in forms]
-        columns = np.column_stack([recording.load_torque_curvature, *springs])[rows]
+        made = (
+            spring_torque_curvature(recording, period=period, damping=damping)
+            for period, damping in [(0.0, DAMPINGS[0]), *forms]
+        )
+        columns = np.column_stack([torque for torque in made if torque is not None])[rows]
         recording.kept[name] = np.column_stack([_beyond(basis, columns), basis])
-    made = recording.kept[name]
-    return made[:, : 1 + len(forms)], made[:, 1 + len(forms) :]
+    kept = recording.kept[name]
+    return kept[:, : 1 + len(forms)], kept[:, 1 + len(forms) :]
 
 
 def _basis(columns: Array) -> Array:

@@ -9,12 +9,14 @@ from dataclasses import replace
 import numpy as np
 
 from stribeck.base.arguments import door
+from stribeck.base.checks import LARGEST
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.predict import predicted
 from stribeck.fitting.result import Fit
 from stribeck.identify.estimates import Estimate
 from stribeck.identify.figures import relative_residual, rms
+from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
@@ -56,6 +58,11 @@ def evaluate(
     began = time.perf_counter()
     recording = as_one(recording)
     prediction, load = predicted(model, recording)
+    if not float(np.max(np.abs(prediction), initial=0.0)) <= LARGEST:
+        raise FitError(
+            f"{model.spec} predicts a torque beyond {LARGEST:g} on {recording.path}: correct the "
+            f"values of the model"
+        )
     residual, moving = recording.torque - prediction, recording.moving
     known = {fitted_on} if isinstance(fitted_on, str) else set(fitted_on or ())
     same = not known.isdisjoint(recording.hashes)
@@ -76,6 +83,18 @@ def evaluate(
         transient=np.zeros(recording.time.size, dtype=bool),
         load=load,
         rank=None if same else 0,
+        notes=_without_load(model, recording),
+    )
+
+
+def _without_load(model: Model, recording: Recording) -> tuple[str, ...]:
+    """A note on a load torque that neither the model nor the recording gives."""
+    lacking = rigid_body_terms(recording, (*model.effects, *model.rigid_body))
+    if model.rigid_body or not lacking:
+        return ()
+    return (
+        f"{model.spec} was stored without {' and '.join(lacking)}, and no load torque is recorded: "
+        f"the torque that these need counts as an error",
     )
 
 

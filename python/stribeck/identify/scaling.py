@@ -21,8 +21,9 @@ from stribeck.identify.problem import SIGN_OF_MOTOR_TORQUE
 from stribeck.models.build import law as formula_law
 from stribeck.models.build import model
 from stribeck.models.catalog import catalog, law_row
+from stribeck.models.channels import RIGID_BODY_EFFECTS
 from stribeck.models.formula_law import is_formula
-from stribeck.models.model import RIGID_BODY_EFFECTS, Model
+from stribeck.models.model import Model
 from stribeck.models.parameter import Parameter
 from stribeck.recording.recording import Recording
 

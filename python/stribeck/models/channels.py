@@ -31,6 +31,8 @@ OTHER_CHANNELS = (
 )
 
 
+#: Effects that belong to the rigid body when it is identified together with the friction.
+RIGID_BODY_EFFECTS = ("inertia", "gravity")
 #: Channels that follow from the balance of torques, or from the load torque, where they can.
 FOLLOWING = ("motor_torque", "external_torque")
 
@@ -88,7 +90,7 @@ def columns(
         if not np.isfinite(steps).all() or (steps < 0.0).any():
             raise SpecError("dt is not finite, or negative: give the steps in s")
         step = float(steps[0]) if alone else steps
-    _refuse_missing([name for name in core.needs if name in given and given[name] is None])
+    _refuse_missing(core, [name for name in core.needs if name in given and given[name] is None])
     return {
         "dt": step,
         "velocity": speed,
@@ -104,7 +106,7 @@ def columns(
     }
 
 
-def _refuse_missing(names: Sequence[str]) -> None:
+def _refuse_missing(core: _core.Model, names: Sequence[str]) -> None:
     """Refuse a call that lacks several channels, with the names of all; the core tells of one.
 
     Raises
@@ -115,7 +117,9 @@ def _refuse_missing(names: Sequence[str]) -> None:
     plain = [name for name in names if name not in FOLLOWING]
     if len(plain) > 1:
         listed = ", ".join(f"'{name}'" for name in plain[:-1])
-        raise SpecError(f"the model needs the columns {listed} and '{plain[-1]}'")
+        body = [effect for effect in RIGID_BODY_EFFECTS if effect in core.effects]
+        why = f": its {' and '.join(body)} were identified with its friction" if body else ""
+        raise SpecError(f"the model needs the columns {listed} and '{plain[-1]}'{why}")
 
 
 def split_columns(

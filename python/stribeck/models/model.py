@@ -31,9 +31,6 @@ from stribeck.models.writer import write_model
 
 Array = NDArray[np.float64]
 
-#: Effects that belong to the rigid body when it is identified together with the friction.
-RIGID_BODY_EFFECTS = ("inertia", "gravity")
-
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Model(Shown):

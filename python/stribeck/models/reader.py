@@ -268,8 +268,17 @@ class _Reader:
                 )
             if "stderr" in row:
                 errors[p.name] = self._number(row["stderr"], header, "stderr")
+                if errors[p.name] < 0.0:
+                    raise self.stop(f"stderr is {errors[p.name]}, below zero", header, "stderr")
             if "bounds" in row:
-                bounds[p.name] = self._bounds(row["bounds"], header, "bounds")
+                low, high = bounds[p.name] = self._bounds(row["bounds"], header, "bounds")
+                if not low <= values[-1] <= high:
+                    raise self.stop(
+                        f"{p.name} = {values[-1]:g} is not between its bounds, {low:g} and "
+                        f"{high:g}: correct one of them",
+                        header,
+                        "bounds",
+                    )
             if "per_run" in row:
                 per_run[p.name] = self._of_runs(row["per_run"], f"{header}.per_run]")
         # Equal bounds hold a parameter in every fit that follows.

@@ -26,7 +26,7 @@ from stribeck.recording.proposals import propose
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.reference import check_reference, load_reference, with_reference
 from stribeck.recording.sampled import sampled
-from stribeck.recording.samples import check_time, drop_missing, in_runs
+from stribeck.recording.samples import check_size, check_time, drop_missing, in_runs
 from stribeck.recording.torque_at import guess_torque_at
 from stribeck.recording.unused import unused_numbers
 from stribeck.recording.weights import check_scored_weights
@@ -142,6 +142,7 @@ def _loaded(
     data.drop_empty()
     load_reference(data, prepared)
     load_motor(data, prepared)
+    check_size(data)
     dropped = drop_missing(data)
     check_reference(data)
     check_motor(data)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 import polars as pl
 
+from stribeck.base.checks import LARGEST
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Ints
 from stribeck.recording.cells import labels, numbered
 from stribeck.recording.channels import Channels
 from stribeck.recording.names import BESIDE
 
-__all__ = ["check_time", "drop_missing", "in_runs"]
+__all__ = ["check_size", "check_time", "drop_missing", "in_runs"]
 
 #: From this share of samples with missing values on, a recording is refused.
 _MISSING_SHARE = 0.05
@@ -42,6 +43,34 @@ def in_runs(data: Channels, *, one_run: bool = False) -> tuple[tuple[str, ...], 
         return ("",), np.zeros(len(data.rows), dtype=np.int64)
     names, number = numbered(labels(data.prepared.table[data.rows], choice.source))
     return tuple(names), number
+
+
+def check_size(data: Channels) -> None:
+    """Refuse channels with numbers that no measurement has: their squares are not finite, or zero.
+
+    Raises
+    ------
+    RecordingError
+        A number is too large, or all of them are too small.
+    """
+    for channel, values in data.values.items():
+        sizes = np.where(np.isfinite(values), np.abs(values), 0.0)
+        at = int(np.argmax(sizes)) if sizes.size else 0
+        largest = float(sizes[at]) if sizes.size else 0.0
+        is_small = 0.0 < largest < 1.0 / LARGEST and channel not in ("weight", "time")
+        if largest <= LARGEST and not is_small:
+            continue
+        choice = data.prepared.choices.get(channel)
+        column = channel if choice is None else choice.source
+        what = (
+            f"column '{column}' is nowhere larger than {largest:.3g}"
+            if is_small
+            else f"{data.place(at)}, column '{column}': {largest:.3g} is beyond {LARGEST:g}"
+        )
+        raise RecordingError(
+            f"{data.path}: {what}: correct the file, or give its unit with "
+            f"{option('unit', f'{channel}=UNIT')}"
+        )
 
 
 def drop_missing(data: Channels) -> int:

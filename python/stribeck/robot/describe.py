@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from stribeck.base.checks import LARGEST
 from stribeck.base.errors import ModelFileError
 from stribeck.base.toml import TomlText, read_text
 from stribeck.robot.arm import GRAVITY, Encoders, Movement, Robot, RobotJoint
@@ -128,8 +129,10 @@ def _rows(text: TomlText, content: Mapping[str, object]) -> list[Mapping[str, ob
     for row in rows:
         for key in _NUMBERS:
             value = row.get(key, 0.0)
-            if not isinstance(value, int | float) or not math.isfinite(value):
-                raise text.stop(f"{key} is a number, not {value!r}", "[[joint]]", key)
+            if not isinstance(value, int | float) or not abs(value) <= LARGEST:
+                raise text.stop(
+                    f"{key} is a number of at most {LARGEST:g}, not {value!r}", "[[joint]]", key
+                )
         if row.get("drive_gain", 1.0) == 0.0:
             raise text.stop("drive_gain is not 0", "[[joint]]", "drive_gain")
     return rows

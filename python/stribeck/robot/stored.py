@@ -146,6 +146,8 @@ def read_friction(path: str | Path) -> dict[str, Model]:
         )
     text = TomlText(where, read_text(where, "robot file", ModelFileError), ModelFileError)
     content = text.parsed()
+    if content.get("kind") != "robot":
+        raise text.stop(f'kind = "robot" is needed, not {content.get("kind")!r}', "kind")
     rows = content.get("joint", [])
     made: dict[str, Model] = {}
     for row in rows if isinstance(rows, list) else []:

@@ -9,7 +9,7 @@ from pathlib import Path
 import polars as pl
 import pytest
 from click.testing import CliRunner
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import SpecError, StribeckError
 from stribeck.benchmark.reproduce.page import write_reproduction
 from stribeck.benchmark.reproduce.papers import PAPERS, reproduce
 from stribeck.benchmark.reproduce.result import Reproduction, Row, last_digit
@@ -55,6 +55,13 @@ def test_the_files_hold_all_rows_and_figures(made: Reproduction, tmp_path: Path)
     assert len(stored["rows"]) == pl.read_csv(tmp_path / "rows.csv").height == len(made.rows)
     page = (tmp_path / f"{made.paper}.html").read_text()
     assert page.count("data:image/png") == len(figures) and "http" not in page
+
+
+def test_a_file_of_the_user_is_not_replaced(made: Reproduction, tmp_path: Path) -> None:
+    (tmp_path / "rows.csv").write_text("mine")
+    with pytest.raises(StribeckError, match=r"rows\.csv: a file that stribeck did not write"):
+        write_reproduction(made, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["rows.csv"]
 
 
 def test_the_text_names_every_miss(made: Reproduction) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import polars as pl
 import pytest
+from stribeck.base.errors import RecordingError
 from stribeck.diagnosis.inspect import inspect
 from stribeck.models.catalog import effect_ids
 from synthetic import joint
@@ -90,3 +91,13 @@ def test_a_file_that_is_no_recording_yet_is_still_shown(tmp_path: Path) -> None:
     answer = inspect(write(tmp_path, joint(rows=300).drop("torque"))).to_dict()
     assert "torque" in answer["problem"] and answer["testable"] == []
     assert answer["rows"] == 300 and "velocity" in answer["problem"]
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"map": "velocity=nope"}, {"unit": "velocity=furlong"}, {"weights": "nope"}]
+)
+def test_an_option_that_cannot_be_followed_is_refused(
+    tmp_path: Path, wrong: dict[str, str]
+) -> None:
+    with pytest.raises(RecordingError, match=next(iter(wrong.values()))):
+        inspect(write(tmp_path, joint(rows=300)), **wrong)  # type: ignore[arg-type]

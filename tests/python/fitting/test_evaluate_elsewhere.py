@@ -1,4 +1,4 @@
-"""The error of a fit on a recording of another kind of joint."""
+"""The error of a model on a recording that it was not fitted to."""
 
 from __future__ import annotations
 
@@ -38,3 +38,22 @@ def test_a_model_with_given_values_is_not_said_to_be_fitted() -> None:
     assert "held-out error" in text and "the model is taken as it is, nothing is fitted" in text
     assert "by a model fitted without it" not in text
     assert "by a model fitted without it" in repr(sb.fit("coulomb", r, starts=1))
+
+
+def test_friction_alone_where_no_load_torque_was_recorded_is_said() -> None:
+    t = np.arange(3000) / 100.0
+    r = sb.Recording.from_columns(
+        time=t, position=np.sin(t), velocity=np.cos(t), torque=np.sign(np.cos(t))
+    )
+    known = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    (note,) = sb.evaluate(known, r).notes
+    assert "stored without inertia and gravity, and no load torque is recorded" in note
+    assert sb.evaluate(sb.fit("coulomb", r, starts=1).model, r).notes == ()
+
+
+def test_a_torque_without_a_square_is_refused() -> None:
+    t = np.arange(3000) / 100.0
+    r = sb.Recording.from_columns(time=t, velocity=np.cos(t), torque=np.sign(np.cos(t)))
+    huge = sb.model("coulomb", coulomb_friction=1e308, viscous_friction=0.5)
+    with pytest.raises(sb.FitError, match="predicts a torque beyond 1e\\+100"):
+        sb.evaluate(huge, r)

@@ -114,7 +114,8 @@ def test_the_gradient_has_its_own_shape() -> None:
 
 def test_every_channel_that_a_call_lacks_is_named() -> None:
     model = sb.Model("coulomb", effects=("inertia", "gravity"), values=[1.0, 2.0, 0.1, 0.2, 0.3])
-    with pytest.raises(SpecError, match="needs the columns 'position' and 'acceleration'"):
+    lacking = "needs the columns 'position' and 'acceleration': its inertia and gravity were ident"
+    with pytest.raises(SpecError, match=lacking):
         model.torque([1.0])
     with pytest.raises(SpecError, match="position has 2 samples where the others have 3"):
         model.torque([1.0, 2.0, 3.0], position=[0.0, 1.0], acceleration=[0.0, 0.0, 0.0])

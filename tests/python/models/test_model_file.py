@@ -117,6 +117,8 @@ def test_file_is_readable_by_people(path: Path) -> None:
             "did you mean 'load_exponent'",
         ),
         ("bounds = [0.0, 30.000000000000004]", "bounds = [0.0]", "bounds = [0.0]", "two numbers"),
+        ("bounds = [0.0, 30.000000000000004]", "bounds = [0.0, 2.0]", "bounds = [0.0, 2", "2.1"),
+        ("stderr = 0.0123", "stderr = -0.0123", "stderr = -0.0", "below zero"),
         ("velocity = [-1.1, 1.3]", "velocity = [-1.1, nan]", "velocity = [-1.1", "finite"),
     ],
 )

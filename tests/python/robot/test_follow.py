@@ -158,6 +158,12 @@ def test_the_command_compares_files(tmp_path: Path) -> None:
     for before, after in zip(without["joints"], fitted["joints"], strict=True):
         assert after["rms_error"] < before["rms_error"]
     assert out.exists()
+    other = tmp_path / "joint.toml"
+    coulomb(4.0).save(other)
+    wrong = CliRunner().invoke(cli, [*words[:4], str(other), "--seconds", "1"])
+    assert "kind = \"robot\" is needed, not 'model'" in str(wrong.exception)
+    made = CliRunner().invoke(cli, [*words[:3], "-o", str(tmp_path / "open.csv"), "--json"])
+    assert json.loads(made.stdout)["rows"] == 6000
     nothing = CliRunner().invoke(cli, ["robot", "simulate", str(path)])
     assert "give the recording to write" in str(nothing.exception)
     noisy = CliRunner().invoke(cli, [*words, "--noise", "0.1"])

@@ -24,7 +24,7 @@ def _columns(fit: Fit) -> list[Array]:
         return []
     noise = load_noise(recording, load)
     made = [load * np.exp(-((load / (size * noise)) ** 2)) for size in SIZES if noise > 0.0]
-    if recording.load_torque is not None:
+    if recording.load_torque is not None and recording.load_torque_smooth is not None:
         made.append(recording.load_torque_smooth - load)
     return [column for column in made if column.any()]
 

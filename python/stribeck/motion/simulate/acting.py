@@ -9,7 +9,8 @@ import numpy as np
 from stribeck.base.errors import SpecError
 from stribeck.effect.describe import is_drive_train
 from stribeck.effect.registry import of_catalog
-from stribeck.models.model import RIGID_BODY_EFFECTS, Model
+from stribeck.models.channels import RIGID_BODY_EFFECTS
+from stribeck.models.model import Model
 from stribeck.motion.simulate.joint import Joint
 
 

@@ -108,7 +108,9 @@ class Work:
                 self._tell(kind, content)
         except (EOFError, OSError):
             self._tell("failed", ENDED)
-        self._process.join()
+        # It has no id where the command ended before the process began.
+        if self._process.pid is not None:
+            self._process.join()
 
     def _tell(self, kind: Kind, content: object) -> None:
         if self._stopped:
