@@ -67,8 +67,9 @@ class Trend:
         is significant.
     fall
         Relative fall of the RMSE with these changes.
-    cause : {"gain", "friction"}
-        ``"gain"`` where the load changes, and friction by the same share.
+    cause : {"gain", "load", "friction"}
+        ``"gain"`` where the load changes, and friction by the same share; ``"load"`` where the load
+        alone changes clearly.
     """
 
     seconds: float
@@ -83,7 +84,7 @@ class Trend:
             "changes": {name: change.to_dict() for name, change in self.changes.items()},
             "fall": self.fall,
             "cause": self.cause,
-            "indistinguishable_from": [] if self.cause == "gain" else ["temperature", "drift"],
+            "indistinguishable_from": ["temperature", "drift"] if self.cause == "friction" else [],
         }
 
 
@@ -167,12 +168,15 @@ def _parts(fitted: Fit) -> dict[str, Array]:
 
 
 def _cause(changes: Mapping[str, Change]) -> str:
-    """Whether all parts change by the same share, the load among them."""
+    """What the parts that change have in common."""
     load = changes.get(LOAD)
     if load is None or not load.clear:
         return "friction"
+    others = [change for name, change in changes.items() if name != LOAD]
+    if not any(change.clear for change in others):
+        return "load"
     same = all(
         abs(change.share - load.share) <= SAME * float(np.hypot(change.stderr, load.stderr))
-        for change in changes.values()
+        for change in others
     )
     return "gain" if same else "friction"

@@ -28,6 +28,8 @@ SOFT_DRIVE = 5.0
 #: Least torque that such a drive train must show, as shares of the load torque and of the noise:
 #: ten thousand samples or more show a fiftieth of their noise.
 TWIST_SHARE, TWIST_NOISE = 1e-3, 0.02
+#: A resonance of fewer samples a period may be what differences between samples lack.
+FEWEST_RESOLVED = 6.0
 #: Periods of other resonances that the form of one includes, as multiples.
 NEAR = (0.8, 1.25)
 
@@ -118,7 +120,7 @@ def _unresolved(after: Identified) -> str | None:
     A drive train that twists under the inertia of the motor has the other sign.
     """
     share, period = after.model.value("elasticity"), after.recording.scales()["sample_period"]
-    if after.model.core.constants["resonance_period"]:
+    if after.model.core.constants["resonance_period"] > FEWEST_RESOLVED * period:
         return None
     if not -(period**2) <= share < 0.0:
         return None

@@ -301,6 +301,11 @@ def trend_text(found: Trend | None) -> str:
             f"{said}: all by the same share, so it is the gain of the motor torque (magnets weaken "
             f"with heat) rather than friction."
         )
+    if found.cause == "load":
+        return (
+            f"{said}, and friction not clearly: the payload may have changed. Give the load torque, "
+            f"or diagnose each payload alone."
+        )
     return (
         f"{said}. No temperature was recorded: this may be temperature, wear or run-in. Record the "
         f"temperature to tell."

@@ -49,6 +49,14 @@ def test_load_and_friction_that_shrink_alike_are_the_gain(tmp_path: Path) -> Non
     assert "drift" not in {row.effect for row in sb.diagnose(fitted).findings}
 
 
+def test_another_payload_is_neither_gain_nor_friction(tmp_path: Path) -> None:
+    load = joint(rows=ROWS, rate=RATE)["load_torque"].to_numpy()
+    found = trend(sb.fit("coulomb", drifting(tmp_path, 0.3 * LATER * load), starts=1))
+    assert found is not None and found.cause == "load"
+    assert found.to_dict()["indistinguishable_from"] == []
+    assert "the payload may have changed" in trend_text(found)
+
+
 def test_drift_without_a_thermometer_is_tied_with_temperature(tmp_path: Path) -> None:
     recording = drifting(tmp_path, -0.1 * COULOMB * np.sign(V) * LATER)
     said = sb.diagnose(sb.fit("coulomb", recording, starts=1))

@@ -190,7 +190,8 @@ class ImprovementPath:
     def exchanges(self, rejected: Collection[str], least: float, seed: int) -> Exchanges:
         """What the exchange of each effect for its rivals, and for those of later ones, shows.
 
-        An effect that may not be claimed beside the others may be right in the place of one.
+        An effect that may not be claimed beside the others may be right in the place of one; one
+        that the recording cannot show may not.
         """
         written = self.current.model.written
         spoilt = tuple(written(row.effect) for row in self.last.not_claimed)
@@ -198,7 +199,8 @@ class ImprovementPath:
             tuple(dict.fromkeys(e for step in self.steps[k:] for e in step.rivals))
             for k in range(len(self.steps))
         ]
-        refused = {*rejected, *(gone.effect for gone in self.dropped)}
+        hidden = {row.effect for row in self.last.untestable}
+        refused = {*rejected, *hidden, *(gone.effect for gone in self.dropped)}
         findings = [step.finding for step in self.steps]
         return exchanges(findings, pools, spoilt, self.current, refused, least, seed)
 

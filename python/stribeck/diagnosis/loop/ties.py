@@ -17,6 +17,8 @@ from stribeck.diagnosis.loop.exchange import PROMISE
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.beside_structure import is_undecided
 from stribeck.diagnosis.trials.evidence import Difference, difference, held_out_square
@@ -114,16 +116,19 @@ class _Others:
     def weight(self, effect: str, promise: float) -> float:
         """How well another effect predicts: 1 as well, 0 far worse.
 
-        Also 0 where its screening promises less than a share of what the one explains, or where
-        no structure remains and the one, which has the very form of what is missing, adds to it.
+        Also 0 where its screening promises less than a share of what the one explains, its values
+        cannot be right, or no structure remains and the one, which has the very form of what is
+        missing, adds to it. A tie of the step, without a `promise`, may have any values.
         """
         by = self._instead(effect, promise)
-        if by is None:
+        if by is None or self.without is None:
+            return 0.0
+        if promise > 0.0 and impossible(Claim(effect, self.without, by.fit)) is not None:
             return 0.0
         if self.fits_exactly and self._adds_to(by.fit):
             return 0.0
         effects, fits = (self.finding.effect, effect), (self.current, by.fit)
-        if self.without is not None and is_undecided(effects, fits, self.without, self.structure):
+        if is_undecided(effects, fits, self.without, self.structure):
             return 1.0
         weight = tie_weight(difference(by.fit, self.current).statistic)
         if is_friction(effect) or not is_friction(self.finding.effect):
