@@ -43,6 +43,10 @@ if TYPE_CHECKING:
 
 #: Least relative fall of the held-out RMSE that a finding must bring.
 LEAST_FALL = 0.01
+#: Why an effect is not claimed whose own form is not that of what is missing.
+FORM = (
+    "the torque depends on the same quantity in another form: a free function of it explains more"
+)
 #: Why an effect is not claimed that the model explains in another form.
 SHAPE = (
     "the effects of the model would explain what it does, were the form of their torque a little "
@@ -137,8 +141,10 @@ def _findings(
     found = tested(fitted, offered.possible, least_fall, seed, progress)
     passed, tried = found.passing, found.screened
     sift = Sifted.of(fitted, passed, least_fall, found.outside_the_band)
-    sift = sift.with_stand(without_proxies(fitted, list(sift.stand)))
-    stood = sift
+    possible = sift.stand
+    stood = sift = sift.with_stand(without_proxies(fitted, list(possible)))
+    left = {trial.effect for trial in sift.stand}
+    proxies = [trial for trial in possible if trial.effect not in left]
     sift = without_imitations(fitted, stood, passed, tried, least_fall)
     sift = without_outshone(stood, sift, tried, least_fall, seed)
     sift = without_unresolved(fitted, sift, tried, least_fall, seed)
@@ -155,7 +161,10 @@ def _findings(
         demoted=order.demoted,
         not_claimed=order.not_claimed,
         passed=tuple(t.fit.model.written(t.effect) for t in passed),
-        explained=tuple(NotClaimed(t.effect, SHAPE) for t in found.explained),
+        explained=(
+            *(NotClaimed(t.effect, FORM) for t in proxies),
+            *(NotClaimed(t.effect, SHAPE) for t in found.explained),
+        ),
         tried=Tried(offered.possible, tried, least_fall),
     )
     return made, found

@@ -12,6 +12,7 @@ from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop import exchange
 from stribeck.diagnosis.loop.exchange import tied
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
+from stribeck.diagnosis.testable import Untestable
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import Trial
@@ -53,6 +54,9 @@ def test_inertia_takes_the_place_of_effects_that_imitate_it(tmp_path: Path) -> N
     inertia = next(step for step in better.steps if step.finding.effect == "inertia")
     assert inertia.finding.confidence == 1.0 and not inertia.finding.indistinguishable_from
     assert path.exchanges(("inertia",), 0.01, seed=0).best is None
+    hidden = Untestable("inertia", "there is no acceleration", "record accelerated motion")
+    blind = replace(path, last=replace(path.last, untestable=(hidden,)))
+    assert blind.exchanges((), 0.01, seed=0).best is None
 
 
 def test_what_takes_a_place_is_no_surer_than_if_it_had_been_found(

@@ -9,7 +9,7 @@ import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.effect.registry import of_catalog
-from synthetic import Array, record
+from synthetic import Array, joint, record
 
 RATE, INERTIA, NOISE = 200.0, 0.8, 0.1
 
@@ -90,3 +90,13 @@ def test_backlash_is_tied_with_elasticity_without_a_known_load(tmp_path: Path) -
     assert of_catalog("backlash").alike(before, after) == ("elasticity",)
     known = sb.fit("coulomb", record(tmp_path, idle_joint(1e-3, load="differences")), starts=1)
     assert of_catalog("backlash").alike(known, known) == ()
+
+
+def test_noise_of_a_load_cell_is_no_elasticity(tmp_path: Path) -> None:
+    """What smooths the load torque lowers the error by the noise of the cell."""
+    frame = joint(rows=8000, rate=200.0)
+    noise = 0.6 * np.random.default_rng(5).standard_normal(frame.height)
+    found = sb.improve(
+        "coulomb", record(tmp_path, frame.with_columns(load_torque=pl.col("load_torque") + noise))
+    )
+    assert found.steps == ()
