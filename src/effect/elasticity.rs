@@ -19,9 +19,9 @@ parameters! {
     ///
     /// Where the load torque changes faster than the drive train can follow, the joint oscillates
     /// about the motor, and the torque `ts` of the spring takes the place of the load torque: `tl`
-    /// behind a resonance with the period `T` and the share `d` of critical damping. With `T = 0`
-    /// the effect is the first order in `1/k`. The column holds the second derivative of `ts`;
-    /// `T` and `d` only tell how it was made.
+    /// behind a resonance with the period `2 pi/wn` and the share `zeta` of critical damping. With a
+    /// period of 0 the effect is the first order in `1/k`. The column holds the second derivative of
+    /// `ts`; period and damping only tell how it was made.
     Elasticity {
         /// Inertia over stiffness: positive for the motor's inertia, negative for the joint's.
         elasticity: "c" ["s2"] -1.0 .. 1.0, start 0.0, SquareTime, Additive;
@@ -35,7 +35,7 @@ impl<S: Real> FrictionEffect<S> for Elasticity<S> {
         title: "Elasticity",
         what: "The drive train twists under the load torque, so motor and joint have \
                different accelerations.",
-        formula: "tf + c d2(ts)/dt2; tl = ts + d T/pi dts/dt + (T/(2 pi))^2 d2(ts)/dt2",
+        formula: "tf + c d2(ts)/dt2; tl = ts + 2 zeta/wn dts/dt + 1/wn^2 d2(ts)/dt2",
         needs: "a load torque that changes fast, or positions on both sides of the drive train",
         beyond: None,
         channels: &[Channel::LoadTorqueCurvature],

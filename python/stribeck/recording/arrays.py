@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Bools", "Floats", "Ints", "bools", "floats", "floats_or_none", "ints"]
+__all__ = ["Bools", "Floats", "Ints", "Numbers", "bools", "floats", "floats_or_none", "ints"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
+Numbers = NDArray[Any]
 
 
 def floats(values: ArrayLike) -> Floats:

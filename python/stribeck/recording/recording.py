@@ -11,11 +11,10 @@ from typing import Any
 
 import numpy as np
 import polars as pl
-from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.base.shown import Plotted
-from stribeck.recording.arrays import Bools, Floats, Ints
+from stribeck.recording.arrays import Bools, Floats, Ints, Numbers
 from stribeck.recording.check import Check
 from stribeck.recording.derive import curvature, slow_rate
 from stribeck.recording.origin import Origin
@@ -322,8 +321,8 @@ class Recording(Plotted):
         return {}
 
     @cached_property
-    def kept(self) -> dict[str, NDArray[Any]]:
-        """Arrays [n] computed from this recording at some cost and kept, by name."""
+    def kept(self) -> dict[str, Numbers]:
+        """Arrays computed from this recording at some cost and kept, by name."""
         return {}
 
     @cached_property

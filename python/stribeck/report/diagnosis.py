@@ -303,8 +303,8 @@ def trend_text(found: Trend | None) -> str:
         )
     if found.cause == "load":
         return (
-            f"{said}, and friction not clearly: the payload may have changed. Give the load torque, "
-            f"or diagnose each payload alone."
+            f"{said}, and friction not clearly: the payload may have changed. Give the load "
+            f"torque, or diagnose each payload alone."
         )
     return (
         f"{said}. No temperature was recorded: this may be temperature, wear or run-in. Record the "

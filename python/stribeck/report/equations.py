@@ -25,6 +25,7 @@ SYMBOLS = {
     "T": "temperature",
     "T0": "reference temperature",
     "tl": "load torque or force",
+    "ts": "torque or force of the drive train's spring",
     "tm": "motor torque or force",
     "te": "external torque or force",
     "tf": "friction torque or force",
@@ -36,6 +37,8 @@ SYMBOLS = {
 CONSTANTS = {
     "tr": "reference load: the RMS of the load torque",
     "vr": "reference speed of the recording",
+    "wn": "angular frequency of the resonance: infinite where the drive train has none",
+    "zeta": "share of critical damping of the resonance",
     "xr": "reference torque: the 99th percentile of the motor torque",
 }
 #: Identified rigid-body terms, by their name in a model.

@@ -26,6 +26,7 @@ _GREEK = {
     "rho": "&#x3c1;",
     "th": "&#x3b8;",
     "sigma": "&#x3c3;",
+    "zeta": "&#x3b6;",
 }
 #: Parameters whose symbols look like the differential of another.
 _NO_DIFFERENTIALS = {"dc", "dv"}
