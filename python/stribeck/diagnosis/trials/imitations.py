@@ -22,7 +22,6 @@ from stribeck.diagnosis.measurement.table import (
     measurement_columns,
     without_effect,
 )
-from stribeck.diagnosis.trials.evidence import held_out_square
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
@@ -35,8 +34,6 @@ ZERO = "a zero of the torque that is off"
 #: The highest confidence of an effect that predicts better than the causes in the measurement by no
 #: more than one standard error: about as often it is right on simulated recordings.
 NARROW = 0.95
-#: They explain much more than an effect where they bring so many times its gain.
-MUCH = 1.5
 
 
 def beside_causes(before: Fit, columns: Mapping[str, Array]) -> FlexibleRefit:
@@ -85,17 +82,6 @@ class _Rivals:
     def advantage(self, trial: Trial) -> float:
         """Standard errors by which they leave a larger held-out error than a trial."""
         return self.together.advantage(trial)
-
-    @property
-    def gain(self) -> float:
-        """Fall of the squared held-out error that all of them bring."""
-        level = held_out_square(self.before, self.before)
-        return level - float(np.sum(self.together.held_out**2))
-
-    def gain_of(self, trial: Trial) -> float:
-        """Fall of the squared held-out error that a trial brings."""
-        level = held_out_square(self.before, self.before)
-        return level - held_out_square(trial.fit, self.before)
 
     @property
     def largest(self) -> str:
@@ -158,10 +144,10 @@ def _explained(trial: Trial, rivals: _Rivals, better: float) -> Sifted:
 def _drive_train_judged(
     sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float
 ) -> Sifted:
-    """The same, with an effect of the drive train judged beside causes in the measurement.
+    """The same, with an effect of the drive train judged beside the noise of the load torque.
 
-    All of these together smooth the load torque as it does, so that what it adds to them says
-    little: they must explain much more.
+    All causes in the measurement together smooth the load torque as it does, so that what it adds
+    to them says nothing. Where they predict as well it is not certain.
     """
     noise = rivals.only(NOISY_LOAD.what)
     if noise is not None:
@@ -169,11 +155,7 @@ def _drive_train_judged(
         needed = 0.0 if better > 0.0 else least / 2
         if better <= TIE and not noise.leave(trial, tried, needed):
             return sift.instead(trial, _explained(trial, noise, better))
-    better = rivals.advantage(trial)
-    if better < -TIE and rivals.gain > MUCH * rivals.gain_of(trial):
-        if rivals.together.explains(trial, tried, least):
-            return sift.instead(trial, _explained(trial, rivals, better))
-    return sift.narrowed(trial) if better <= SIMPLEST else sift
+    return sift.narrowed(trial) if rivals.advantage(trial) <= SIMPLEST else sift
 
 
 def standing(before: Fit, trial: Trial, passed: Sequence[Trial], least: float) -> Sifted:
