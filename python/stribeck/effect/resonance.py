@@ -38,8 +38,10 @@ def resonances(recording: Recording) -> list[tuple[float, float]]:
     highest = recording.rate_hz / FEWEST_SAMPLES
     if recording.load_torque is None or recording.averaged or highest <= LOWEST:
         return []
-    count = 1 + int(np.log(highest / LOWEST) / np.log(RATIO))
-    return [(1.0 / (LOWEST * RATIO**k), d) for k in range(count) for d in DAMPINGS]
+    frequencies = [LOWEST]
+    while frequencies[-1] * RATIO <= highest:
+        frequencies.append(frequencies[-1] * RATIO)
+    return [(1.0 / frequency, damping) for frequency in frequencies for damping in DAMPINGS]
 
 
 def best_resonance(recording: Recording, residual: Array | None = None) -> tuple[float, float]:
@@ -95,7 +97,7 @@ def _shapes(
             spring_torque_curvature(recording, period=period, damping=damping)
             for period, damping in [(0.0, DAMPINGS[0]), *forms]
         )
-        columns = np.column_stack([torque for torque in made if torque is not None])[rows]
+        columns = np.column_stack([torque[rows] for torque in made if torque is not None])
         recording.kept[name] = np.column_stack([_beyond(basis, columns), basis])
     kept = recording.kept[name]
     return kept[:, : 1 + len(forms)], kept[:, 1 + len(forms) :]
