@@ -15,6 +15,7 @@ from stribeck.effect.registry import find
 from stribeck.effect.ripple import ripple_period_of
 from stribeck.identify.figures import bridged, zero_phase
 from stribeck.models.rigid_body import own_load
+from stribeck.recording.spring_torque import spring_torque_curvature
 
 if TYPE_CHECKING:
     from stribeck.fitting.result import Fit
@@ -143,8 +144,11 @@ def _load_along(fit: Fit) -> Channel | None:
 
 
 def _load_curvature(fit: Fit) -> Channel | None:
-    values, unit = fit.recording.load_torque_curvature, fit.model.load_unit
-    return None if values is None else Channel(values, f"second derivative of the load [{unit}/s²]")
+    constants, unit = fit.model.core.constants, fit.model.load_unit
+    period, damping = constants["resonance_period"], constants["resonance_damping"]
+    values = spring_torque_curvature(fit.recording, period=period, damping=damping)
+    of = "torque in the drive train's spring" if period > 0.0 else "load"
+    return None if values is None else Channel(values, f"second derivative of the {of} [{unit}/s²]")
 
 
 def _modelled(fit: Fit) -> Channel:

@@ -10,6 +10,7 @@ import pytest
 import stribeck as sb
 from drive_trains import NOISE, TwoInertias, late_stribeck, reference
 from stribeck.base.errors import FitError
+from stribeck.report.finding_view import finding_view
 from synthetic import joint, motion, record
 
 
@@ -69,6 +70,7 @@ def test_a_load_that_oscillates_on_its_spring_is_elasticity_with_a_resonance(
     assert model.value("elasticity") == pytest.approx(expected, rel=0.2)
     plain = sb.fit("coulomb", found[first].recording)
     assert found[first].rmse_held_out < 0.4 * plain.rmse_held_out
+    assert "torque in the drive train's spring" in finding_view(first, plain, found[first]).x_label
 
 
 def test_values_of_an_elasticity_keep_the_resonance_they_came_with(tmp_path: Path) -> None:

@@ -56,7 +56,7 @@ def example(effect: str) -> Example:
         made.ties.update(ties)
         made.instead.update(set(named) - {effect, *ties})
         if seed == SEEDS[0]:
-            after = found.fit if found else sb.add(before, effect).after
+            after = found.fit if found else sb.add(before, effect)
             made.where = of_catalog(effect).where(before, after)
             made.errors = (before.rmse_held_out, after.rmse_held_out, truth["noise_rms"])
             made.unit = before.model.torque_unit
