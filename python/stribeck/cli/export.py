@@ -9,6 +9,7 @@ import click
 from stribeck.cli.common import echo_result, is_model_file, json_option, say, seed_option
 from stribeck.cli.outputs import CheckedCommand
 from stribeck.exporters.export import export as write
+from stribeck.exporters.mujoco import left_out
 from stribeck.models.build import model as named
 from stribeck.models.reader import read_model_file
 from stribeck.passivity.operating_box import parse_sides
@@ -21,7 +22,8 @@ from stribeck.passivity.operating_box import parse_sides
     "language",
     required=True,
     metavar="FORMAT",
-    help="c: C99 without libraries; rust: a module for the crate; json: the step as data.",
+    help="c: C99 without libraries; rust: a module for the crate; mujoco: Coulomb and viscous "
+    "friction of a joint as MJCF; json: the step as data.",
 )
 @click.argument("folder", metavar="DIR", type=click.Path(file_okay=False))
 @click.option("--name", default=None, help="Prefix of files, types and functions.")
@@ -70,6 +72,8 @@ def export(
         box=parse_sides(sides),
         seed=seed,
     )
-    if "delay" in written.model.effects:
+    if written.language == "mujoco" and (left := left_out(written.model)):
+        say(f"note: MuJoCo has no such term, so it is left out: {', '.join(left)}")
+    elif "delay" in written.model.effects:
         say("note: the delay belongs to the recording, not to the joint: it is not exported")
     echo_result(written, as_json)

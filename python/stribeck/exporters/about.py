@@ -66,9 +66,19 @@ class About:
         row = law_row(self.model.law)
         return str(row["formula"]) if row else self.model.own[0].text
 
+    @property
+    def title(self) -> str:
+        """What was written, in one line."""
+        return f"Friction model {self.model.spec}, written by stribeck {__version__}."
+
+    def origin(self) -> Iterator[str]:
+        """Lines of a comment on what was written, and what it was fitted to."""
+        yield self.title
+        yield from self._provenance()
+
     def lines(self) -> Iterator[str]:
         """Lines of a comment."""
-        yield f"Friction model {self.model.spec}, written by stribeck {__version__}."
+        yield self.title
         yield ""
         yield f"Law: {self.formula}"
         row = law_row(self.model.law)

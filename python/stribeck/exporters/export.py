@@ -15,6 +15,7 @@ from stribeck.exporters.about import About
 from stribeck.exporters.c.files import c_files, identifier
 from stribeck.exporters.document import json_files
 from stribeck.exporters.fixed.files import analyse, fixed_files
+from stribeck.exporters.mujoco import mujoco_files
 from stribeck.exporters.precision import FIXED, FLOATING, FixedPrecision, Precision
 from stribeck.exporters.program import Program
 from stribeck.exporters.rust.files import rust_files
@@ -26,7 +27,7 @@ from stribeck.models.model import Model
 from stribeck.models.model_file import WITH_MODEL, ModelFile
 from stribeck.passivity.operating_box import refuse_unread_sides
 
-Language = Literal["c", "rust", "json"]
+Language = Literal["c", "rust", "mujoco", "json"]
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,15 +91,16 @@ def export(
     ----------
     model : Model, ModelFile or Fit
         With values for all parameters. A delay, which belongs to the recording, is left out.
-    to : {"c", "rust", "json"}
-        C99 without libraries, a Rust module for the crate, or the operations of the step as data.
+    to : {"c", "rust", "mujoco", "json"}
+        C99 without libraries, a Rust module for the crate, MJCF with the Coulomb and viscous
+        friction of a joint, or the operations of the step as data.
     folder
         Folder of the files, created if needed. Files with the same names are replaced.
     name
         Start of the names of files, types and functions. [default: the model's spec]
     precision : {"f64", "f32", "q31", "q15"}
-        Number format. In fixed point, for models without memory only, the header states a bound of
-        the torque's error over the operating box.
+        Number format of a program. In fixed point, for models without memory only, the header
+        states a bound of the torque's error over the operating box.
     libm
         In C, use the platform's ``math.h``: smaller, but the bits are the platform's.
     box : dict of (low, high)
@@ -177,6 +179,10 @@ def _texts(
             )
         analysis = analyse(about, Program.of(about.model), box, form)
         return fixed_files(about, analysis, name=name, precision=form, seed=seed)
+    if language == "mujoco":
+        if form != "f64":
+            raise SpecError(f"MJCF has no number format: leave {option('precision', form)} out")
+        return mujoco_files(about, name=name)
     program = Program.of(about.model, "single" if form == "f32" else "double")
     rows = vectors(about.model, program, box, form, seed=seed)
     match language:
