@@ -145,8 +145,11 @@ def _load_along(fit: Fit) -> Channel | None:
 
 def _load_curvature(fit: Fit) -> Channel | None:
     constants, unit = fit.model.core.constants, fit.model.load_unit
-    period, damping = constants["resonance_period"], constants["resonance_damping"]
-    values = spring_torque_curvature(fit.recording, period=period, damping=damping)
+    # A model without elasticity has none.
+    period = constants.get("resonance_period", 0.0)
+    values = spring_torque_curvature(
+        fit.recording, period=period, damping=constants.get("resonance_damping", 1.0)
+    )
     of = "torque in the drive train's spring" if period > 0.0 else "load"
     return None if values is None else Channel(values, f"second derivative of the {of} [{unit}/s²]")
 
