@@ -83,6 +83,14 @@ class _Rivals:
         """Standard errors by which they leave a larger held-out error than a trial."""
         return self.together.advantage(trial)
 
+    def let_stand(self, trial: Trial, tried: int, least: float) -> bool:
+        """Whether a trial predicts better than all of them, or adds to them.
+
+        One that predicts better at all need not add much.
+        """
+        better = self.advantage(trial)
+        return better > TIE or self.leave(trial, tried, 0.0 if better > 0.0 else least / 2)
+
     @property
     def largest(self) -> str:
         """The cause that alone leaves the smallest held-out error."""
@@ -92,7 +100,7 @@ class _Rivals:
 def without_imitations(
     before: Fit, sift: Sifted, passed: Sequence[Trial], tried: int, least: float
 ) -> Sifted:
-    """The same without friction effects that causes in the measurement explain as well.
+    """The same without effects that causes in the measurement explain as well.
 
     Parameters
     ----------
@@ -118,9 +126,7 @@ def without_imitations(
             # Its simpler part shows nothing alone: the wider one must also add to the causes.
             stands = better > SIMPLEST and rivals.leave(trial, tried, least / 2)
         else:
-            # An effect that predicts better than all the causes need not add much to them.
-            needed = 0.0 if better > 0.0 else least / 2
-            stands = better > TIE or rivals.leave(trial, tried, needed)
+            stands = rivals.let_stand(trial, tried, least)
         if not stands:
             sift = sift.instead(trial, _explained(trial, rivals, better))
             continue
@@ -150,11 +156,8 @@ def _drive_train_judged(
     to them says nothing. Where they predict as well it is not certain.
     """
     noise = rivals.only(NOISY_LOAD.what)
-    if noise is not None:
-        better = noise.advantage(trial)
-        needed = 0.0 if better > 0.0 else least / 2
-        if better <= TIE and not noise.leave(trial, tried, needed):
-            return sift.instead(trial, _explained(trial, noise, better))
+    if noise is not None and not noise.let_stand(trial, tried, least):
+        return sift.instead(trial, _explained(trial, noise, noise.advantage(trial)))
     return sift.narrowed(trial) if rivals.advantage(trial) <= SIMPLEST else sift
 
 
