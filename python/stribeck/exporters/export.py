@@ -172,6 +172,10 @@ def _texts(
     box: Mapping[str, tuple[float, float]],
     seed: int,
 ) -> Mapping[str, str]:
+    if language == "mujoco":
+        if form != "f64":
+            raise SpecError(f"MJCF has no number format: leave {option('precision', form)} out")
+        return mujoco_files(about, name=name)
     if form == "q31" or form == "q15":
         if language != "c":
             raise SpecError(
@@ -179,10 +183,6 @@ def _texts(
             )
         analysis = analyse(about, Program.of(about.model), box, form)
         return fixed_files(about, analysis, name=name, precision=form, seed=seed)
-    if language == "mujoco":
-        if form != "f64":
-            raise SpecError(f"MJCF has no number format: leave {option('precision', form)} out")
-        return mujoco_files(about, name=name)
     program = Program.of(about.model, "single" if form == "f32" else "double")
     rows = vectors(about.model, program, box, form, seed=seed)
     match language:

@@ -38,5 +38,6 @@ def test_what_is_no_friction_of_mujoco_is_refused(tmp_path: Path) -> None:
     with pytest.raises(SpecError, match="has neither by name"):
         sb.export(sb.Model("gaz_b", values=[1.0, 1.0, 0.0]), "mujoco", tmp_path)
     friction = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
-    with pytest.raises(SpecError, match="MJCF has no number format"):
-        sb.export(friction, "mujoco", tmp_path, precision="f32")
+    for precision in ("f32", "q15"):
+        with pytest.raises(SpecError, match="MJCF has no number format"):
+            sb.export(friction, "mujoco", tmp_path, precision=precision)
