@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TypeVar
 
-from stribeck.base.errors import ModelFileError, SpecError, nearest
+from stribeck.base.errors import ModelFileError, SpecError, nearest, option
 from stribeck.base.files import write_whole
 from stribeck.base.replaceable import check_own
 
@@ -25,7 +25,7 @@ def chosen(name_of_option: str, given: str, known: tuple[_Named, ...]) -> _Named
         if name == given:
             return name
     raise SpecError(
-        f"{name_of_option} cannot be {given!r}{nearest(given, known)}; give one of "
+        f"{option(name_of_option)} cannot be {given!r}{nearest(given, known)}; give one of "
         f"{', '.join(known)}"
     )
 

@@ -51,8 +51,8 @@ def test_the_document_holds_the_step(model_file: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
-        (["--to", "cobol"], "to cannot be 'cobol'"),
-        (["--to", "c", "--precision", "f16"], "precision cannot be 'f16'"),
+        (["--to", "cobol"], "--to cannot be 'cobol'"),
+        (["--to", "c", "--precision", "f16"], "--precision cannot be 'f16'"),
         (["--to", "rust", "--libm"], "libm is for C in floating point"),
         (["--to", "c", "--box", "velocity"], "write --box CHANNEL=LOW:HIGH"),
         (["--to", "c", "--seed", "-1"], "-1 is not in the range"),

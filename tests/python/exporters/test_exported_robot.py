@@ -100,9 +100,9 @@ def test_effects_by_formula_and_a_delay(tmp_path: Path) -> None:
 def test_what_cannot_be_exported(tmp_path: Path) -> None:
     robot = made_robot()
     friction = friction_of(robot)
-    with pytest.raises(SpecError, match="to cannot be 'fortran'"):
+    with pytest.raises(SpecError, match="option `to` cannot be 'fortran'"):
         export_robot(robot, friction, "fortran", tmp_path)
-    with pytest.raises(SpecError, match="precision cannot be 'q15'"):
+    with pytest.raises(SpecError, match="option `precision` cannot be 'q15'"):
         export_robot(robot, friction, "c", tmp_path, precision="q15")
     with pytest.raises(SpecError, match="friction of joint axis 3 is not known"):
         export_robot(robot, {n: m for n, m in friction.items() if n != "axis 3"}, "c", tmp_path)

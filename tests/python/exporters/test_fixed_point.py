@@ -47,7 +47,7 @@ def worst_error(model: sb.Model, header: Path, bits: int, seed: int) -> tuple[fl
     name = header.stem
     digits = {
         k.lower(): int(d)
-        for k, d in re.findall(rf"#define {name.upper()}_(\w+)_DIGITS (\d+)", text)
+        for k, d in re.findall(rf"#define {name.upper()}_(\w+)_DIGITS (-?\d+)", text)
     }
     bound = float(re.search(r"at most (\S+) N m", text)[1])
     channels = re.findall(r"int\d+_t (\w+); /\*", text)
@@ -106,6 +106,18 @@ def test_what_has_no_bound_is_refused(spec: str, why: str, tmp_path: Path) -> No
     }
     with pytest.raises(sb.SpecError, match=f"cannot be exported in fixed point: {why}"):
         sb.export(model, "c", tmp_path, precision="q31", box=box)
+
+
+@pytest.mark.parametrize("precision", ["q31", "q15"])
+def test_terms_far_below_the_digits_vanish(precision: str, tmp_path: Path) -> None:
+    """The powers of two between them exceed the numbers of the controller."""
+    model = sb.model("coulomb", coulomb_friction=1e25, viscous_friction=0.5)
+    written = sb.export(
+        model, "c", tmp_path, precision=precision, name="joint", box={"velocity": (-2.0, 2.0)}
+    )
+    assert compile_and_run(needs("gcc"), written.files) == 0
+    worst, bound = worst_error(model, tmp_path / "joint.h", 32 if precision == "q31" else 16, seed=6)
+    assert 0.0 < worst <= 1.005 * bound < 1e22
 
 
 def test_fixed_point_needs_a_box_and_c(tmp_path: Path) -> None:

@@ -72,8 +72,8 @@ def test_a_description_is_written_again(fitted: str, tmp_path: Path) -> None:
     [
         (("--to", "c"), "give one of --to c DIR"),
         (("--to", "c", "out", "--urdf", "pendulum.urdf", "-o", "new.urdf"), "give one of"),
-        (("--to", "fortran", "out"), "to cannot be 'fortran'"),
-        (("--to", "c", "out", "--precision", "q31"), "precision cannot be 'q31'"),
+        (("--to", "fortran", "out"), "--to cannot be 'fortran'"),
+        (("--to", "c", "out", "--precision", "q31"), "--precision cannot be 'q31'"),
         (("--urdf", "pendulum.urdf", "-o", "pendulum.urdf"), "it is an input"),
         (
             ("--urdf", "pendulum.urdf", "-o", "new.urdf", "--precision", "f32"),

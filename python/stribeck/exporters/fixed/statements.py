@@ -72,7 +72,13 @@ class Statements:
         return f"sample->{operation.channel}" if operation.name == "channel" else f"t{node}"
 
     def _moved(self, text: str, by: int) -> str:
-        """A wide number with `by` more digits behind the point, or fewer."""
+        """A wide number with `by` more digits behind the point, or fewer.
+
+        A power of two beyond the wide numbers is divided by in steps: it leaves nothing.
+        """
+        most = 2 * self.analysis.bits - 2
+        if by < -most:
+            return self._moved(f"({text} / {self._literal(2**most)})", by + most)
         if by == 0:
             return text
         return f"({text} {'*' if by > 0 else '/'} {self._literal(2 ** abs(by))})"
