@@ -66,6 +66,14 @@ def joint(
     )
 
 
+def behind_a_filter(frame: pl.DataFrame, lag: float) -> pl.DataFrame:
+    """The same with a velocity behind a low-pass filter of first order."""
+    share = 0.01 / lag
+    v = frame["velocity"].to_numpy()
+    late = lfilter([share], [1.0, share - 1.0], v, zi=[(1.0 - share) * v[0]])[0]
+    return frame.with_columns(velocity=late)
+
+
 def record(
     folder: Path, frame: pl.DataFrame, name: str = "made", **options: object
 ) -> sb.Recording:

@@ -7,6 +7,11 @@ import numpy as np
 from stribeck.effect.base import Effect, Identified, JointSizes, Obstacle, ResidualView, number
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.inertia import hardly_accelerates
+from stribeck.recording.velocity_lag import recorded_lag
+
+#: Largest ratio of a delay to the lag of the velocity that explains it: a filter acts most on the
+#: fast motions that show a delay.
+ALIKE = 2.0
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
@@ -19,9 +24,16 @@ def _where(before: Identified, after: Identified) -> str:
     tau = after.model.value("delay")
     way = "lags behind" if tau > 0 else "leads"
     samples = abs(tau) * after.recording.rate_hz
-    return (
+    said = (
         f"the torque {way} the motion by {number(1e3 * abs(tau))} ms ({number(samples)} samples), "
         f"most visible at reversals"
+    )
+    late = recorded_lag(after.recording)
+    if late is None or tau >= 0.0 or not late.exceeds(-tau / ALIKE) or late.lag > -tau * ALIKE:
+        return said
+    return (
+        f"{said}; the velocity is {number(1e3 * late.lag)} ms behind the position, as behind a "
+        f"filter, which explains it"
     )
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from stribeck.identify.transients import transient_rows
 from stribeck.recording.recording import Recording
-from stribeck.recording.velocity_lag import VelocityLag, velocity_lag
+from stribeck.recording.velocity_lag import VelocityLag, recorded_lag
 
 #: Lag in samples below which no sample is left out.
 LEAST = 1.0
@@ -23,11 +23,8 @@ LEAST = 1.0
 
 def late_velocity(recording: Recording) -> VelocityLag | None:
     """The lag of the recorded velocity; None where it is below a sample, or cannot be told."""
-    r = recording
-    if r.averaged or r.position is None or r.rate_hz <= 0 or r.columns["velocity"].derived:
-        return None
-    late = velocity_lag(r.time, r.position, r.velocity, r.segment)
-    return late if late.exceeds(LEAST / r.rate_hz) else None
+    late = recorded_lag(recording)
+    return None if late is None or not late.exceeds(LEAST / recording.rate_hz) else late
 
 
 def uncertain_direction(recording: Recording) -> NDArray[np.bool_]:

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.recording.arrays import Floats, Ints
+from stribeck.recording.recording import Recording
 
-__all__ = ["VelocityLag", "velocity_lag"]
+__all__ = ["VelocityLag", "recorded_lag", "velocity_lag"]
 
 #: Number of stretches whose estimates give the standard error, and of standard errors by which a
 #: lag exceeds its limit.
@@ -61,3 +62,11 @@ def velocity_lag(time: Floats, position: Floats, velocity: Floats, segment: Ints
     scores = product - lag * square
     spread = float(np.sqrt(np.sum(scores**2) * STRETCHES / (STRETCHES - 1)))
     return VelocityLag(lag, spread / float(square.sum()))
+
+
+def recorded_lag(recording: Recording) -> VelocityLag | None:
+    """How late the recorded velocity is; None where position and velocity are not both recorded."""
+    r = recording
+    if r.averaged or r.position is None or r.rate_hz <= 0 or r.columns["velocity"].derived:
+        return None
+    return velocity_lag(r.time, r.position, r.velocity, r.segment)

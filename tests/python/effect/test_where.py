@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
@@ -10,6 +11,12 @@ import pytest
 import stribeck as sb
 from stribeck.effect.base import Identified
 from stribeck.effect.describe import where
+from synthetic import behind_a_filter, joint, record
+
+
+def on(recording: sb.Recording, fitted: Identified) -> Identified:
+    """The same model, identified on a recording."""
+    return cast(Identified, SimpleNamespace(model=fitted.model, recording=recording))
 
 
 def with_values(spec: str, **values: float) -> Identified:
@@ -67,3 +74,15 @@ def test_an_amplifier_that_warms_up_beside_a_gain_is_compared_with_its_end(spec:
     text = where("warm_up", after, after)
     assert ("shows, compared with the end, 10 % too little" in text) == ("gain" in spec)
     assert "time constant of 20 s" in text
+
+
+@pytest.mark.parametrize(("filtered", "delay"), [(0.018, -0.008), (0.018, 0.008), (0.01, -0.008)])
+def test_a_filter_of_the_velocity_explains_a_torque_that_leads(
+    filtered: float, delay: float, tmp_path: Path
+) -> None:
+    """The discrete filter is a sample of 0.01 s faster than its time constant."""
+    recording = record(tmp_path, behind_a_filter(joint(), filtered))
+    late = on(recording, with_values("delay", delay=delay))
+    text = where("delay", late, late)
+    explained = filtered > 0.01 and delay < 0.0
+    assert ("the velocity is 7.99 ms behind" in text and "behind a filter" in text) is explained

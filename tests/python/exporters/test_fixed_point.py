@@ -116,7 +116,9 @@ def test_terms_far_below_the_digits_vanish(precision: str, tmp_path: Path) -> No
         model, "c", tmp_path, precision=precision, name="joint", box={"velocity": (-2.0, 2.0)}
     )
     assert compile_and_run(needs("gcc"), written.files) == 0
-    worst, bound = worst_error(model, tmp_path / "joint.h", 32 if precision == "q31" else 16, seed=6)
+    worst, bound = worst_error(
+        model, tmp_path / "joint.h", 32 if precision == "q31" else 16, seed=6
+    )
     assert 0.0 < worst <= 1.005 * bound < 1e22
 
 

@@ -5,27 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import polars as pl
 import pytest
 import stribeck as sb
-from scipy.signal import lfilter
 from stribeck.identify.uncertain_direction import late_velocity, uncertain_direction
-from synthetic import COULOMB, joint, record
+from synthetic import COULOMB, behind_a_filter, joint, record
 
 #: Time constant of the filter, s: 3.5 samples.
 LAG = 0.035
 
 
-def behind_a_filter(frame: pl.DataFrame, lag: float = LAG) -> pl.DataFrame:
-    """The same with a velocity behind a low-pass filter of first order."""
-    share = 0.01 / lag
-    v = frame["velocity"].to_numpy()
-    late = lfilter([share], [1.0, share - 1.0], v, zi=[(1.0 - share) * v[0]])[0]
-    return frame.with_columns(velocity=late)
-
-
 def test_the_lag_follows_from_position_and_velocity(tmp_path: Path) -> None:
-    late = late_velocity(record(tmp_path, behind_a_filter(joint()), trust=True))
+    late = late_velocity(record(tmp_path, behind_a_filter(joint(), LAG), trust=True))
     # The discrete filter is a sample faster than its time constant.
     assert late is not None and late.lag == pytest.approx(LAG - 0.01, abs=1e-3)
 
@@ -40,7 +30,7 @@ def test_an_ordinary_velocity_is_not_late(tmp_path: Path, plain: sb.Recording) -
 
 
 def test_samples_before_a_late_reversal_are_scored_but_not_fitted_to(tmp_path: Path) -> None:
-    recording = record(tmp_path, behind_a_filter(joint()), trust=True)
+    recording = record(tmp_path, behind_a_filter(joint(), LAG), trust=True)
     marked = uncertain_direction(recording)
     truth = joint()["velocity"].to_numpy()
     wrong = (np.sign(truth) != np.sign(recording.velocity)) & recording.moving
