@@ -193,6 +193,9 @@ class Effect:
     flexible_shape
         Columns on the samples fitted to, arrays [m], that let the effect take any smooth form.
         Before a second cause is claimed, the residual must not be explained by these.
+    series
+        Whether its parameters are the terms of a series, which no sample determines beyond the
+        range that it covers.
     fixed_form
         The channel on which the effect depends in a form fixed by physics.
     size_range
@@ -235,6 +238,7 @@ class Effect:
     generated_constants: Callable[[GeneratedRecording], dict[str, float]] = _no_constants
     refusal: Callable[[Model, Recording], str | None] = _nothing
     flexible_shape: Callable[[Identified], list[Array]] = _no_columns
+    series: bool = False
     fixed_form: FixedForm | None = None
     size_range: tuple[float, float] | None = None
     forms: Callable[[Recording], int] = _one_form

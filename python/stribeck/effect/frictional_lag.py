@@ -17,12 +17,14 @@ from stribeck.effect.columns import delayed
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.stribeck import SLOW, no_slow_motion
 from stribeck.models.model import Model
-from stribeck.recording.moves import move_seconds
+from stribeck.recording.moves import move_seconds, moves
 from stribeck.recording.recording import Recording
 
-#: In a tenth of the slow samples the joint must speed up so much, and in a tenth slow down, that it
-#: would pass the slow speeds within this time (s): then a lag of some hundredths of a second shows.
-SLOW_PASS = 2.0
+#: In so many moves the joint must speed up at slow speeds, and in as many slow down, so much that it
+#: would pass these within this time (s): then a lag of some hundredths of a second shows.
+FEWEST, SLOW_PASS = 5, 2.0
+#: Part of the slow samples of a move in which it must: it speeds up in half of them at most.
+PART = 0.25
 #: A lag beyond this share of a typical move is none: friction would belong to another move.
 LONGEST = 0.1
 #: A low-pass averages a derived velocity over this part of a period of its cut-off to each side.
@@ -37,18 +39,29 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
         )
     if (why := no_slow_motion(facts)) is not None:
         return why
-    top = facts.top_speed
-    slow = facts.speed < SLOW * top
-    acceleration = facts.recording.acceleration_smooth[facts.recording.moving]
-    faster = (np.sign(facts.velocity) * acceleration)[slow]
-    up, down = float(np.quantile(faster, 0.9)), float(-np.quantile(faster, 0.1))
-    if SLOW * top <= SLOW_PASS * min(up, down):
+    up, down = _quick_moves(facts)
+    if min(up, down) >= FEWEST:
         return None
     return Obstacle(
-        f"in nine of ten slow samples the joint {'speeds up' if up < down else 'slows down'} too "
-        f"little to pass its slow speeds in {SLOW_PASS:.0f} s, so that no lag of friction shows",
+        f"in {'none' if min(up, down) == 0 else f'only {min(up, down)}'} of the moves the joint "
+        f"{'speeds up' if up < down else 'slows down'} enough to pass its slow speeds in "
+        f"{SLOW_PASS:.0f} s, so that no lag of friction shows",
         "add slow passes that speed up and slow down quickly",
     )
+
+
+def _quick_moves(facts: RecordingFacts) -> tuple[int, int]:
+    """Number of moves that speed up, and that slow down, quickly at slow speeds."""
+    r = facts.recording
+    slow = facts.speed < SLOW * facts.top_speed
+    faster = (np.sign(facts.velocity) * r.acceleration_smooth[r.moving])[slow]
+    move = moves(r)[r.moving][slow]
+    order = np.lexsort((faster, move))
+    _, start, count = np.unique(move[order], return_index=True, return_counts=True)
+    part = (PART * (count - 1)).astype(np.intp)
+    least, most = faster[order][start + part], faster[order][start + count - 1 - part]
+    quick = SLOW * facts.top_speed / SLOW_PASS
+    return int(np.count_nonzero(most >= quick)), int(np.count_nonzero(least <= -quick))
 
 
 def _without_curve(model: Model, _: Recording | Array) -> str | None:

@@ -18,6 +18,7 @@ from stribeck.effect.base import (
 from stribeck.effect.columns import odd_powers
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.load import PAYLOAD_NOTE, load_is_too_uniform
+from stribeck.effect.registry import of_catalog
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
@@ -72,6 +73,18 @@ def _functions_of_torque(fit: Identified) -> list[Array]:
     return odd_powers(total, float(np.abs(total).max()))
 
 
+def _alike(before: Identified, after: Identified) -> tuple[str, ...]:
+    """Friction that differs between the quadrants by a share of the load, friction rescaled.
+
+    Any friction may be larger by the gain; what remains of it is a share of the load torque in the
+    direction of the load, whether the joint drives it or is driven.
+    """
+    if "quadrant" in after.model.effects:
+        return ()
+    facts = RecordingFacts.of(after.recording, after.load)
+    return () if of_catalog("quadrant").obstacle(facts) else ("quadrant",)
+
+
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
     return {"gain": 0.08}
 
@@ -85,5 +98,6 @@ EFFECT = Effect(
     refusal=_refusal,
     fixed_form=FixedForm("load_torque", _functions_of_torque),
     design_note=PAYLOAD_NOTE,
+    alike=_alike,
     in_motion="measurement",
 )

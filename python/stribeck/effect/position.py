@@ -132,6 +132,7 @@ EFFECT = Effect(
     plausible=_plausible,
     constants=stroke_constants,
     generated_constants=_generated_constants,
+    series=True,
     flexible_shape=_flexible_shape,
     alike=_alike,
 )

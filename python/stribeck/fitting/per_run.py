@@ -114,7 +114,7 @@ def with_own_values(
     _check_runs(recording, problem.rows, len(varied) + _SPARE)
     lower, upper = widened.widened(solution.lower), widened.widened(solution.upper)
     found = _searched(problem, solution, made, searched)
-    refit = OfRuns(lower, upper, tuple(widened.of_varied()))
+    refit = OfRuns(lower, upper, varied=tuple(widened.of_varied()))
     predicted = Prediction.of(problem, found.values, lower, upper, effort, refit)
     parameters = identified(problem, found.values, lower, upper, by)
     held_out = recording.torque - predicted.held_out

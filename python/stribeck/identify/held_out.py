@@ -8,9 +8,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.effect.registry import find
 from stribeck.identify.problem import Problem
 from stribeck.identify.separable import minimise
 from stribeck.identify.triangle import Triangle, triangles
+from stribeck.models.catalog import effect_row
+from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 
@@ -37,21 +40,33 @@ class Refit(Protocol):
         """
 
 
+#: The terms of a series count as determined by the other samples if these hold at least this share
+#: of the information of those that are left out.
+DETERMINED = 0.01
 #: A second step has failed if it leaves so many times the sum of squares before the refit.
 ASTRAY = 2.0
 
 
 @dataclass(frozen=True)
 class Bounded:
-    """Refits within bounds [p]; equal bounds hold a parameter."""
+    """Refits within bounds [p]; equal bounds hold a parameter.
+
+    Attributes
+    ----------
+    drawn : array [k, p] or None
+        Rows of the objective that draw parameters to zero.
+    """
 
     lower: Array
     upper: Array
+    drawn: Array | None = None
 
     def step(self, values: Array, triangle: Triangle) -> Array:
         """One bounded step of the free parameters."""
         free = np.flatnonzero(self.lower < self.upper)
         at = values[free]
+        if self.drawn is not None:
+            triangle = triangle.drawn(self.drawn[:, free], at)
         lower, upper = self.lower[free], self.upper[free]
         refit = values.copy()
         refit[free] = np.clip(at + triangle.solve(lower - at, upper - at), lower, upper)
@@ -69,6 +84,27 @@ class Bounded:
                 return again
             values = refit
         return minimise(problem, values, self.lower, self.upper, tolerance=SETTLED).values
+
+    def without(self, block: Triangle, model: Model) -> Bounded:
+        """The refit to the other samples than those of a block.
+
+        Where a range of a channel is passed in one block alone, the others say nothing about the
+        terms of a series there, which would take any value: these are drawn to zero.
+        """
+        free = np.flatnonzero(self.lower < self.upper)
+        own = np.isin(free, series(model))
+        if not own.any():
+            return self
+        rows = np.zeros((block.right.size, self.lower.size))
+        rows[:, free[own]] = np.sqrt(DETERMINED) * block.factor[:, own]
+        return replace(self, drawn=rows)
+
+
+def series(model: Model) -> list[int]:
+    """The places of parameters that are terms of a series."""
+    rows = (effect_row(effect) for effect in model.effects if (own := find(effect)) and own.series)
+    names = {parameter["name"] for row in rows if row for parameter in row["parameters"]}
+    return [place for place, name in enumerate(model.names) if name in names]
 
 
 def held_out_prediction(
@@ -120,13 +156,14 @@ def held_out_prediction(
     for b in np.unique(group):
         kept = group != b
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
-        refits[b] = by.step(values, others)
+        own = by.without(parts[b], problem.model) if isinstance(by, Bounded) else by
+        refits[b] = own.step(values, others)
         if jacobian is not None:
             prediction[problem.rows[~kept]] += jacobian[~kept] @ (refits[b] - values)[free]
             continue
         if not linear:
             remaining = replace(problem, rows=problem.rows[kept])
-            refits[b] = by.refine(remaining, refits[b], values, others.square)
+            refits[b] = own.refine(remaining, refits[b], values, others.square)
         rows = np.flatnonzero(block == b)
         prediction[rows] = problem.predict(refits[b], rows)
     return prediction, refits
@@ -141,6 +178,7 @@ def held_out_residual(problem: Problem, values: Array, lower: Array, upper: Arra
     parts = triangles(problem.weighted(jacobian), problem.weighted(residual), group, count)
     for b in np.unique(group):
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
-        change = (Bounded(lower, upper).step(values, others) - values)[free]
+        refit = Bounded(lower, upper).without(parts[b], problem.model)
+        change = (refit.step(values, others) - values)[free]
         residual[group == b] -= jacobian[group == b] @ change
     return residual

@@ -91,6 +91,11 @@ class Widened:
         return self.base.spec
 
     @property
+    def effects(self) -> tuple[str, ...]:
+        """Its effects."""
+        return self.base.effects
+
+    @property
     def torque_unit(self) -> str:
         """Unit of the effort."""
         return self.base.torque_unit

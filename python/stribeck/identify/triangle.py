@@ -101,6 +101,19 @@ class Triangle:
             right = np.concatenate([right, np.zeros(damping.size)])
         return least_squares(root, right, lower, upper)
 
+    def drawn(self, rows: Array, values: Array) -> Triangle:
+        """The problem with ``|rows (values + x)|^2`` in the objective: parameters drawn to zero.
+
+        Parameters
+        ----------
+        rows : array [k, p]
+        values : array [p]
+            Parameters before the step x.
+        """
+        return Triangle.of(
+            np.concatenate([self.factor, rows]), np.concatenate([self.right, -rows @ values])
+        )._with_residual_of([self])
+
     def covariance(self) -> Array:
         """Pseudo-inverse of J'J [p, p], without unidentifiable directions."""
         scale = _lengths(self.factor)

@@ -12,6 +12,7 @@ from stribeck.diagnosis.loop.remainder import part_explained, unknown_structure
 from stribeck.diagnosis.loop.superfluous import Needed, brought_by, model_without, without_effects
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
+from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
@@ -149,9 +150,14 @@ class ImprovementPath:
         """
         place = self._place(exchange.finding.effect)
         dropped, by = self.steps[place], exchange.by
+        weight = dropped.finding.weight
+        if by.effect in dropped.finding.indistinguishable_from:
+            # The tie that lowered it is decided, as far as whole models decide it.
+            weight = max(weight, NARROW)
         finding = replace(
             dropped.finding,
             effect=by.effect,
+            weight=weight,
             indistinguishable_from=(),
             before=exchange.without,
             fit=by.fit,

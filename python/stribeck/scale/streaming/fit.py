@@ -100,7 +100,7 @@ def _result(
     parts = _in_order(groups, found.values)
     block = np.searchsorted(sample.edges, edges[groups.number], side="right") - 1
     blocks = [_joined(parts, block == b) for b in range(sample.edges.size - 1)]
-    held_out = _held_out(found.values, bounds, blocks)
+    held_out = _held_out(model, found.values, bounds, blocks)
     moving = int(groups.rows.sum())
     square = Triangle.joined(parts).square
     free = np.flatnonzero(bounds[:, 0] < bounds[:, 1])
@@ -206,7 +206,7 @@ def _joined(parts: list[Triangle], wanted: NDArray[np.bool_]) -> Triangle:
     )
 
 
-def _held_out(values: Array, bounds: Array, blocks: list[Triangle]) -> float | None:
+def _held_out(model: Model, values: Array, bounds: Array, blocks: list[Triangle]) -> float | None:
     """Sum of squares, each block predicted by a fit without it; None with a single block.
 
     Each fit is one Gauss-Newton step from the solution: exact for linear parameters, and accurate
@@ -219,7 +219,8 @@ def _held_out(values: Array, bounds: Array, blocks: list[Triangle]) -> float | N
     total = 0.0
     for k, block in enumerate(blocks):
         others = Triangle.joined([other for j, other in enumerate(blocks) if j != k])
-        total += block.square - block.fall((refit.step(values, others) - values)[free])
+        own = refit.without(block, model)
+        total += block.square - block.fall((own.step(values, others) - values)[free])
     return total
 
 
