@@ -47,11 +47,12 @@ def _generated_constants(made: GeneratedRecording) -> dict[str, float]:
 
 def _where(before: Identified, after: Identified) -> str:
     m = after.model
-    speed = m.constants["reference_velocity"]
+    meanwhile = m.value("backlash_gap")
+    seconds = meanwhile / m.constants["reference_velocity"]
     return (
         f"after the load torque changes its sign the motor does not carry it for about "
-        f"{number(m.value('backlash_gap'))} {m.position_unit} of motion at {number(speed)} "
-        f"{m.position_unit}/s"
+        f"{number(1e3 * seconds)} ms; the play is less than the {number(meanwhile)} "
+        f"{m.position_unit} that the joint moves in that time"
     )
 
 

@@ -20,8 +20,8 @@ from stribeck.models.model import Model
 from stribeck.recording.moves import move_seconds, moves
 from stribeck.recording.recording import Recording
 
-#: In so many moves the joint must speed up at slow speeds, and in as many slow down, so much that it
-#: would pass these within this time (s): then a lag of some hundredths of a second shows.
+#: In so many moves the joint must speed up at slow speeds, and in as many slow down, so much that
+#: it would pass these within this time (s): then a lag of some hundredths of a second shows.
 FEWEST, SLOW_PASS = 5, 2.0
 #: Part of the slow samples of a move in which it must: it speeds up in half of them at most.
 PART = 0.25

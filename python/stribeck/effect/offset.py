@@ -10,10 +10,11 @@ from stribeck.effect.direction import one_direction
 
 def _where(before: Identified, after: Identified) -> str:
     m = after.model
+    elsewhere = ", or the spring is at rest elsewhere" if "spring" in m.effects else ""
     return (
         f"the torque is shifted by {number(m.value('offset'))} {m.load_unit}, the same in both "
         f"directions, as if Coulomb friction were larger by that in one direction and smaller in "
-        f"the other"
+        f"the other{elsewhere}"
     )
 
 

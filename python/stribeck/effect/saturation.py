@@ -53,11 +53,15 @@ def _refusal(model: Model, recording: Recording) -> str | None:
 
 def _where(before: Identified, after: Identified) -> str:
     m = after.model
-    top, share = m.constants["reference_torque"], 100 * m.value("saturation")
+    shown = m.constants["reference_torque"]
+    share, exponent = 100 * m.value("saturation"), m.value("saturation_exponent")
+    # The reference is a torque as shown; the motor delivers less.
+    delivered = np.linspace(0.0, 1.0, 1001)
+    top = float(np.interp(1.0, delivered * (1 + share / 100 * delivered**exponent), delivered))
     return (
-        f"the torque channel shows {number(share)} % more than the motor delivers at {number(top)} "
-        f"{m.load_unit}, and {number(share * 0.5 ** m.value('saturation_exponent'))} % more at "
-        f"half that torque"
+        f"the torque channel shows {number(share * top**exponent)} % more than the motor delivers "
+        f"at {number(shown * top)} {m.load_unit}, and "
+        f"{number(share * (0.5 * top) ** exponent)} % more at half that torque"
     )
 
 

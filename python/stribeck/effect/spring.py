@@ -9,29 +9,21 @@ from stribeck.effect.base import (
     Effect,
     Identified,
     JointSizes,
-    Obstacle,
     ResidualView,
     number,
 )
 from stribeck.effect.columns import half_waves
-from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.gravity import GRAVITY_RANGE
 from stribeck.effect.periodogram import FEWEST_PERIODS
 from stribeck.effect.position import generated_ends, stroke_ends, stroke_is_not_repeated
 
 
-def _obstacle(facts: RecordingFacts) -> Obstacle | None:
-    if (why := stroke_is_not_repeated(facts)) is not None:
-        return why
-    q = facts.scored(facts.recording.position)
-    assert q is not None
-    if facts.recording.joint_kind == "revolute" and float(np.ptp(q)) < GRAVITY_RANGE:
-        return Obstacle(
-            f"the joint moves through only {np.ptp(q):.2g} rad, where a spring is "
-            "indistinguishable from the slope of gravity",
-            "move through at least a quarter of a turn",
-        )
-    return None
+def _alike(_: Identified, after: Identified) -> tuple[str, ...]:
+    """Gravity, over a part of a turn in which its torque is a straight line too."""
+    r = after.recording
+    if r.joint_kind != "revolute" or r.position is None or "gravity" in after.model.effects:
+        return ()
+    return ("gravity",) if float(np.ptp(r.position[r.moving])) < GRAVITY_RANGE else ()
 
 
 def _where(before: Identified, after: Identified) -> str:
@@ -62,11 +54,12 @@ def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
 EFFECT = Effect(
     id="spring",
     view=ResidualView("position"),
-    obstacle=_obstacle,
+    obstacle=stroke_is_not_repeated,
     where=_where,
     plausible=_plausible,
     constants=stroke_ends,
     generated_constants=generated_ends,
     series=True,
     flexible_shape=_flexible_shape,
+    alike=_alike,
 )
