@@ -142,7 +142,7 @@ def slower(frame: pl.DataFrame, times: float) -> pl.DataFrame:
 
 
 def test_slow_changes_of_speed_show_no_lag(tmp_path: Path) -> None:
-    found = answers(tmp_path, slower(joint(), 30.0))
+    found = answers(tmp_path, slower(joint(), 100.0))
     assert "enough to pass its slow speeds" in found["frictional_lag"] and "stribeck" not in found
 
 

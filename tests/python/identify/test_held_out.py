@@ -6,12 +6,14 @@ The reference is least squares by numpy on the samples of the other blocks, with
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import polars as pl
 import pytest
 import scipy
 import stribeck as sb
+from stribeck.identify import held_out
 from stribeck.identify.held_out import ASTRAY, Bounded, held_out_prediction, held_out_residual
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
@@ -219,3 +221,44 @@ def test_a_step_that_raises_the_error_is_not_taken(
     assert np.sum(p.residual(step) ** 2) > ASTRAY * square
     found = by.refine(p, start, start, square)
     assert np.sum(p.residual(found) ** 2) <= square * (1.0 + 1e-12)
+
+
+def along_the_stroke(folder: Path, farther: float) -> sb.Recording:
+    """Friction that varies along a stroke, whose ends one tenth of the recording alone passes."""
+    t = np.arange(6000) / 200.0
+    amplitude = np.where((t > 12.0) & (t < 15.0), farther, 1.0)
+    w = 2.0 * np.pi / 1.5
+    q, v = amplitude * np.sin(w * t), amplitude * w * np.cos(w * t)
+    friction = np.sign(v) * (2.0 + 0.3 * np.cos(q)) + 0.1 * v
+    noise = 0.2 * np.random.default_rng(4).standard_normal(t.size)
+    frame = pl.DataFrame(
+        {
+            "time": t,
+            "position": q,
+            "velocity": v,
+            "acceleration": -(w**2) * q,
+            "torque": friction + noise,
+            "load_torque": 0.0 * t,
+        }
+    )
+    return record(folder, frame)
+
+
+def test_a_series_is_not_extrapolated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The refit without the block that alone reaches the ends has no say there."""
+    recording = along_the_stroke(tmp_path, 2.5)
+    plain = sb.fit("coulomb", recording).rmse_held_out
+    found = sb.fit("coulomb+position", recording).rmse_held_out
+    assert found is not None and plain is not None and found < 0.97 * plain
+    monkeypatch.setattr(held_out, "DETERMINED", 0.0)
+    extrapolated = sb.fit("coulomb+position", recording).rmse_held_out
+    assert extrapolated is not None and extrapolated > plain
+
+
+def test_a_series_that_every_block_determines_is_refitted_as_before(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    recording = along_the_stroke(tmp_path, 1.0)
+    found = sb.fit("coulomb+position", recording).rmse_held_out
+    monkeypatch.setattr(held_out, "DETERMINED", 0.0)
+    assert found == pytest.approx(sb.fit("coulomb+position", recording).rmse_held_out, rel=1e-4)
