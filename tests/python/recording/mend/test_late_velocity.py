@@ -8,25 +8,20 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
-from scipy.signal import lfilter
 from stribeck.base.errors import RecordingError
-from synthetic import COULOMB, joint, record
+from synthetic import COULOMB, behind_a_filter, joint, record
 
 #: Time constant of the filter, s: 3.5 samples.
 LAG = 0.035
 
 
-def behind_a_filter(scale: float = 1.0, lag: float = LAG) -> pl.DataFrame:
+def late_joint(scale: float = 1.0, lag: float = LAG) -> pl.DataFrame:
     """A joint whose velocity is behind a low-pass filter of first order."""
-    frame = joint()
-    share = 0.01 / lag
-    v = scale * frame["velocity"].to_numpy()
-    late = lfilter([share], [1.0, share - 1.0], v, zi=[(1.0 - share) * v[0]])[0]
-    return frame.with_columns(velocity=late)
+    return behind_a_filter(joint().with_columns(velocity=scale * pl.col("velocity")), lag)
 
 
 def test_a_late_velocity_is_derived_from_the_position(tmp_path: Path) -> None:
-    recording = record(tmp_path, behind_a_filter())
+    recording = record(tmp_path, late_joint())
     assert recording.columns["velocity"].derived
     assert recording.columns["velocity"].source == "position"
     note = next(n for n in recording.notes if "lags the position" in n)
@@ -36,23 +31,31 @@ def test_a_late_velocity_is_derived_from_the_position(tmp_path: Path) -> None:
     assert not (wrong & recording.moving).any()
     fit = sb.fit("coulomb", recording)
     assert fit.estimates["coulomb_friction"].value == pytest.approx(COULOMB, rel=0.01)
-    as_recorded = record(tmp_path, behind_a_filter(), "trusted", trust=True)
+    as_recorded = record(tmp_path, late_joint(), "trusted", trust=True)
     assert not as_recorded.columns["velocity"].derived
     assert fit.rmse < 0.5 * sb.fit("coulomb", as_recorded).rmse
 
 
 def test_the_samples_that_move_are_those_of_the_recorded_velocity(tmp_path: Path) -> None:
-    late = record(tmp_path, behind_a_filter())
-    as_recorded = record(tmp_path, behind_a_filter(), "trusted", trust=True)
+    late = record(tmp_path, late_joint())
+    as_recorded = record(tmp_path, late_joint(), "trusted", trust=True)
     assert late.velocity_threshold == as_recorded.velocity_threshold
 
 
-@pytest.mark.parametrize("lag", [0.0, 0.011])
-def test_less_than_a_sample_is_kept(tmp_path: Path, lag: float) -> None:
-    frame = behind_a_filter(lag=lag) if lag else joint()
-    assert not record(tmp_path, frame).columns["velocity"].derived
+@pytest.mark.parametrize(("lag", "derived"), [(0.01, False), (0.011, False), (0.015, True)])
+def test_less_than_a_quarter_of_a_sample_is_kept(tmp_path: Path, lag: float, derived: bool) -> None:
+    """The discrete filter is a sample of 0.01 s faster than its time constant."""
+    assert record(tmp_path, late_joint(lag=lag)).columns["velocity"].derived is derived
+
+
+def test_a_velocity_late_by_a_sample_is_no_inertia(tmp_path: Path) -> None:
+    """Viscous friction of a late velocity is that of the velocity, less a share of acceleration."""
+    frame = joint(rows=4000)
+    late = frame.with_columns(velocity=pl.col("velocity").shift(1).fill_null(strategy="backward"))
+    found = sb.diagnose(sb.fit("coulomb", record(tmp_path, late.drop("acceleration"))))
+    assert not found.findings
 
 
 def test_a_velocity_of_another_scale_is_refused_as_before(tmp_path: Path) -> None:
     with pytest.raises(RecordingError, match="velocity"):
-        sb.fit("coulomb", record(tmp_path, behind_a_filter(scale=2.0)))
+        sb.fit("coulomb", record(tmp_path, late_joint(scale=2.0)))
