@@ -22,9 +22,9 @@ from stribeck.recording.velocity_lag import velocity_lag
 
 __all__ = ["Moved", "late", "note", "torque_follows"]
 
-#: Lag in samples below which the velocity is kept. A difference of two positions lags by half a
-#: sample; what viscous friction does in that time looks like inertia.
-_LEAST = 0.25
+#: Lag in samples below which the velocity is kept: that of a difference of two positions. What
+#: viscous friction does in a longer time looks like inertia.
+_LEAST = 0.5
 #: Largest deviation from one of the ratio of both: beyond it, the units contradict each other.
 _RATIO = 0.05
 #: Channels that a torque may be read from.
@@ -40,7 +40,7 @@ class Moved:
 
 
 def late(data: Channels, segment: Ints, period: float) -> float | None:
-    """How late the recorded velocity is, s; None where that is less than a quarter of a sample.
+    """How late the recorded velocity is, s; None where that is less than half a sample.
 
     Nor where both are not the same motion, where there is no position, or with ``trust``.
 

@@ -42,8 +42,10 @@ def test_the_samples_that_move_are_those_of_the_recorded_velocity(tmp_path: Path
     assert late.velocity_threshold == as_recorded.velocity_threshold
 
 
-@pytest.mark.parametrize(("lag", "derived"), [(0.01, False), (0.011, False), (0.015, True)])
-def test_less_than_a_quarter_of_a_sample_is_kept(tmp_path: Path, lag: float, derived: bool) -> None:
+@pytest.mark.parametrize(
+    ("lag", "derived"), [(0.01, False), (0.011, False), (0.014, False), (0.018, True)]
+)
+def test_less_than_half_a_sample_is_kept(tmp_path: Path, lag: float, derived: bool) -> None:
     """The discrete filter is a sample of 0.01 s faster than its time constant."""
     assert record(tmp_path, late_joint(lag=lag)).columns["velocity"].derived is derived
 
