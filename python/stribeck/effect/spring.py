@@ -59,7 +59,6 @@ EFFECT = Effect(
     plausible=_plausible,
     constants=stroke_ends,
     generated_constants=generated_ends,
-    series=True,
     flexible_shape=_flexible_shape,
     alike=_alike,
 )
