@@ -16,6 +16,7 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.region import Region
 from stribeck.identify.separable import Search
 from stribeck.identify.triangle import Triangle
+from stribeck.models.model import Model
 
 Array = NDArray[np.float64]
 
@@ -88,6 +89,10 @@ class Conditioned:
 
     objective: Objective
     region: Region
+
+    def without(self, block: Triangle, model: Model) -> Conditioned:
+        """The same for every block: the conditions bind its parameters."""
+        return self
 
     def step(self, values: Array, triangle: Triangle) -> Array:
         """The values [p] after one step, unchanged where no values hold the conditions."""

@@ -25,6 +25,9 @@ SETTLED = 1e-8
 class Refit(Protocol):
     """How a refit continues from known values [p]."""
 
+    def without(self, block: Triangle, model: Model) -> Refit:
+        """The refit to the other samples than those of a block."""
+
     def step(self, values: Array, triangle: Triangle) -> Array:
         """Values [p] after one Gauss-Newton step, from the factors of the free parameters."""
 
@@ -156,7 +159,7 @@ def held_out_prediction(
     for b in np.unique(group):
         kept = group != b
         others = Triangle.joined([part for k, part in enumerate(parts) if k != b])
-        own = by.without(parts[b], problem.model) if isinstance(by, Bounded) else by
+        own = by.without(parts[b], problem.model)
         refits[b] = own.step(values, others)
         if jacobian is not None:
             prediction[problem.rows[~kept]] += jacobian[~kept] @ (refits[b] - values)[free]
