@@ -10,6 +10,7 @@
 mod bounded;
 mod dense;
 mod differences;
+mod first_order;
 mod forest;
 mod low_pass;
 mod problem;
@@ -23,6 +24,7 @@ pub use bounded::bounded_least_squares;
 #[cfg(feature = "python")]
 pub(crate) use dense::SingularValues;
 pub use differences::divided_differences;
+pub use first_order::first_order;
 pub use forest::{Forest, ForestError};
 pub use low_pass::LowPass;
 pub use problem::{NOT_SCORED, Problem};

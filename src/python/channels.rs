@@ -8,7 +8,9 @@ use pyo3::prelude::*;
 use super::columns::{Array, contiguous};
 use super::normal::row_by_row;
 use super::{ModelError, refuse};
-use crate::identify::{Forest, LowPass, Resonance, divided_differences as scaled_differences};
+use crate::identify::{
+    Forest, LowPass, Resonance, divided_differences as scaled_differences, first_order as followed,
+};
 
 type Matrix<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
@@ -73,6 +75,23 @@ pub fn spring_torque_curvature<'py>(
     })?;
     let (steps, load) = (contiguous(&steps), contiguous(&load));
     Ok(py.detach(|| resonance.curvature(&steps, &load)).into_pyarray(py))
+}
+
+/// `values` [n] behind a first-order lag (s), array [n]; `steps` [n] are the times since the sample
+/// before (s).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub fn first_order<'py>(
+    py: Python<'py>,
+    steps: Array<'py>,
+    values: Array<'py>,
+    lag: f64,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let (steps, values) = (contiguous(&steps), contiguous(&values));
+    let late = py
+        .detach(|| followed(&steps, &values, lag))
+        .ok_or_else(|| ModelError::new_err("a lag must be above zero"))?;
+    Ok(late.into_pyarray(py))
 }
 
 /// What `trees` extremely randomised trees predict for the rows of `unseen` `[k, n]`, array `[k]`,

@@ -43,7 +43,9 @@ mod _core {
     #[pymodule_export]
     use super::catalog::catalog;
     #[pymodule_export]
-    use super::channels::{divided_differences, learn, low_pass, spring_torque_curvature};
+    use super::channels::{
+        divided_differences, first_order, learn, low_pass, spring_torque_curvature,
+    };
     #[pymodule_export]
     use super::compensation::{compensate, largest_factor};
     #[pymodule_export]

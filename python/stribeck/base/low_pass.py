@@ -1,6 +1,6 @@
-"""Zero-phase low-pass filter, by the core.
+"""Low-pass filters, by the core: one without phase, and one of first order.
 
-`scipy.signal` has the same filter, but takes longer to import than most commands take to run.
+`scipy.signal` has the same filters, but takes longer to import than most commands take to run.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from stribeck import _core
 
-__all__ = ["zero_phase"]
+__all__ = ["first_order", "zero_phase"]
 
 Array = NDArray[np.float64]
 
@@ -43,3 +43,26 @@ def zero_phase(values: Array, cutoff: float, rate: float, padding: int = PADDING
     """
     rows = np.atleast_2d(values).reshape(-1, values.shape[-1])
     return _core.low_pass(rows, cutoff / rate, padding).reshape(values.shape)
+
+
+def first_order(values: Array, steps: Array, lag: float) -> Array:
+    """`values` [n] behind a first-order lag, array [n].
+
+    Parameters
+    ----------
+    steps : array [n]
+        Time since the sample before, s; where it is not above zero, the lag begins at rest.
+    lag : float
+        Time constant, s.
+
+    Raises
+    ------
+    stribeck._core.ModelError
+        Unless the lag is above zero.
+
+    Examples
+    --------
+    >>> first_order(np.array([0.0, 1.0, 1.0]), np.array([0.0, 0.1, 0.1]), lag=0.2).round(3)
+    array([0.   , 0.393, 0.632])
+    """
+    return _core.first_order(steps, values, lag)

@@ -22,7 +22,7 @@ from stribeck.identify.covariance import batches, correlation_length, covariance
 from stribeck.identify.estimates import APART
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
-from stribeck.models.rigid_body import own_load
+from stribeck.models.parts import friction_parts
 from stribeck.recording.moves import moves
 
 Array = NDArray[np.float64]
@@ -146,17 +146,8 @@ def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Tre
 def _parts(fitted: Fit) -> dict[str, Array]:
     """Torque of each part on the samples fitted to, arrays [m]; without those that are small."""
     r, rows = fitted.recording, fitted.rows
-    load = r.load_torque
-    if load is None:
-        load = fitted.load if fitted.load is not None else own_load(fitted.model, r)
-    columns = {
-        "position": r.position,
-        "acceleration": r.acceleration,
-        "load_torque": load,
-        "external_torque": r.external_torque,
-    }
-    given = {name: column[rows] for name, column in columns.items() if column is not None}
-    friction = fitted.model.split(r.velocity[rows], **given)
+    load = fitted.load_torque
+    friction = friction_parts(fitted.model, r, load, rows)
     made = {
         DRY: np.sign(r.velocity[rows]) * friction["dry"],
         VISCOUS: friction["rate"],

@@ -12,6 +12,7 @@ from stribeck.identify.effort import Effort
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import Refit, held_out_prediction
 from stribeck.identify.problem import Problem
+from stribeck.models.parts import friction_parts
 
 Array = NDArray[np.float64]
 
@@ -99,15 +100,8 @@ def _refuse_slack_bristle(problem: Problem) -> None:
         moving = moving & inside
     if not moving.any():
         return
-    channels = {
-        name: column[moving]
-        for name in ("position", "acceleration", "temperature")
-        if (column := getattr(recording, name)) is not None
-    }
     load = problem.load if recording.load_torque is None else recording.load_torque
-    if load is not None:
-        channels["load_torque"] = load[moving]
-    dry = problem.model.split(recording.velocity[moving], **channels)["dry"]
+    dry = friction_parts(problem.model, recording, load, moving)["dry"]
     worst = int(np.argmin(dry))
     if dry[worst] <= 0:
         velocity = recording.velocity[moving][worst]

@@ -32,6 +32,7 @@ from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.fitted import note_origin
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
+from stribeck.models.rigid_body import own_load
 from stribeck.passivity.check import check
 from stribeck.passivity.imposed import PassiveCost
 from stribeck.recording.recording import Recording
@@ -164,6 +165,17 @@ class Fit(Plotted):
             The path cannot be written.
         """
         ModelFile.of(self).write(path)
+
+    @property
+    def own_load(self) -> Array | None:
+        """Load torque of the identified rigid body [n]; None where none is identified."""
+        return own_load(self.model, self.recording) if self.load is None else self.load
+
+    @property
+    def load_torque(self) -> Array | None:
+        """Load torque of every sample [n], recorded or identified; None where it is unknown."""
+        recorded = self.recording.load_torque
+        return self.own_load if recorded is None else recorded
 
     @property
     def residual(self) -> Array:

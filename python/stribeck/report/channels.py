@@ -14,7 +14,6 @@ from stribeck.effect.columns import displacement_since_reversal
 from stribeck.effect.registry import find
 from stribeck.effect.ripple import ripple_period_of
 from stribeck.identify.figures import bridged, zero_phase
-from stribeck.models.rigid_body import own_load
 from stribeck.recording.spring_torque import spring_torque_curvature
 
 if TYPE_CHECKING:
@@ -48,13 +47,6 @@ def clock(r: Recording) -> Channel:
     typical = float(np.median(r.dt[r.dt > 0])) if np.any(r.dt > 0) else 1.0
     steps = np.where((np.diff(r.run, prepend=r.run[0]) != 0) | (steps <= 0), typical, steps)
     return Channel(np.cumsum(steps) - steps[0], "time, runs one after another [s]")
-
-
-def load_of(fit: Fit) -> Array | None:
-    """Load torque of every sample, recorded or identified; None where unknown."""
-    if fit.recording.load_torque is not None:
-        return fit.recording.load_torque
-    return own_load(fit.model, fit.recording) if fit.load is None else fit.load
 
 
 def torque_name(unit: str) -> str:
@@ -125,17 +117,17 @@ def _temperature_rate(fit: Fit) -> Channel | None:
 
 
 def _load(fit: Fit) -> Channel | None:
-    load, unit = load_of(fit), fit.model.load_unit
+    load, unit = fit.load_torque, fit.model.load_unit
     return None if load is None else Channel(load, f"load {torque_name(unit)} [{unit}]")
 
 
 def _load_size(fit: Fit) -> Channel | None:
-    load, unit = load_of(fit), fit.model.load_unit
+    load, unit = fit.load_torque, fit.model.load_unit
     return None if load is None else Channel(np.abs(load), f"load magnitude [{unit}]")
 
 
 def _load_along(fit: Fit) -> Channel | None:
-    load, unit = load_of(fit), fit.model.load_unit
+    load, unit = fit.load_torque, fit.model.load_unit
     if load is None:
         return None
     return Channel(
@@ -179,7 +171,7 @@ def _reversal(fit: Fit) -> Channel | None:
 
 def _load_reversal(fit: Fit) -> Channel | None:
     """Displacement since the load last changed its sign."""
-    r, load = fit.recording, load_of(fit)
+    r, load = fit.recording, fit.load_torque
     if load is None or r.averaged:
         return None
     steps = np.abs(r.velocity) * r.dt

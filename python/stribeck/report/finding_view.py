@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.residual.regimes import REVERSAL_WINDOW, regime_rows
-from stribeck.report.channels import channel, clock, load_of, view_of
+from stribeck.report.channels import channel, clock, view_of
 from stribeck.report.style import binned_quartiles
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ def _sign(fit: Fit, along: str | None) -> Array:
     """What the residual is multiplied by, [n]."""
     if along is None:
         return np.ones_like(fit.residual)
-    load = load_of(fit) if along == "load" else None
+    load = fit.load_torque if along == "load" else None
     return np.sign(fit.recording.velocity if load is None else load)
 
 

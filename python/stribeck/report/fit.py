@@ -9,7 +9,7 @@ import numpy as np
 
 from stribeck.identify.algorithms import GAUSS_NEWTON
 from stribeck.identify.figures import torque_cutoff
-from stribeck.report.channels import clock, load_of, torque_name
+from stribeck.report.channels import clock, torque_name
 from stribeck.report.exogeneity import exogeneity_text
 from stribeck.report.layout import joined, notes_text, paragraph
 from stribeck.report.numbers import change_text, minus_signs, percent, plain
@@ -220,7 +220,7 @@ def _over_time(top: Axes, middle: Axes, fit: Fit) -> None:
 def _friction_panel(axes: Axes, fit: Fit) -> None:
     """Friction against velocity, measured and modelled."""
     r, unit = fit.recording, fit.model.torque_unit
-    what, load = torque_name(unit), load_of(fit)
+    what, load = torque_name(unit), fit.load_torque
     some = thin(np.flatnonzero(r.moving))
     # The prediction contains the torque of an identified rigid body or of a known load.
     rest = np.zeros_like(r.torque) if load is None else load

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 import polars as pl
-import scipy
 from numpy.typing import NDArray
 
+from stribeck.base.low_pass import first_order as followed
 from stribeck.benchmark.draws import root_mean_square
 from stribeck.benchmark.sample import Oracle, Sample
 
@@ -98,7 +97,5 @@ Nuisance: TypeAlias = Callable[[Bench, np.random.Generator], Bench]
 
 def first_order(values: Array, dt: float, lag: float) -> Array:
     """Low-pass filter of first order with the time constant `lag`, at rest before the start."""
-    share = -math.expm1(-dt / lag)
-    return np.asarray(
-        scipy.signal.lfilter([share], [1.0, share - 1.0], values - values[0]) + values[0]
-    )
+    steps = np.full_like(values, dt)
+    return followed(values - values[0], steps, lag) + values[0]

@@ -46,8 +46,7 @@ class MeasurementCause:
 
 def load_of(fit: Fit) -> Array:
     """Load torque [n], recorded or identified; zero where the model has none."""
-    load = fit.recording.load_torque if fit.load is None else fit.load
-    return np.zeros_like(fit.prediction) if load is None else load
+    return np.zeros_like(fit.prediction) if fit.load_torque is None else fit.load_torque
 
 
 def neighbour(recording: Recording, values: Array, rows: int) -> Array:

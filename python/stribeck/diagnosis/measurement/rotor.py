@@ -11,6 +11,7 @@ import numpy as np
 from stribeck.diagnosis.measurement.cause import Array, MeasurementCause, load_of
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
+from stribeck.models.parts import friction_parts
 
 #: The torque of the rotor, as a share of the load torque, for the derivative of friction.
 SHARE = 0.1
@@ -23,16 +24,8 @@ def _columns(fit: Fit) -> list[Array]:
         return []
     load = load_of(fit)
     of_rotor = SHARE * rms(load[r.moving]) / size * a
-    return [np.sign(r.velocity) * (_dry(fit, load) - _dry(fit, load - of_rotor))]
-
-
-def _dry(fit: Fit, load: Array) -> Array:
-    """Dry friction [n] under a load torque [n]."""
-    r = fit.recording
-    channels = {"position": r.position, "acceleration": r.acceleration}
-    channels |= {"temperature": r.temperature, "load_torque": load}
-    given = {name: column for name, column in channels.items() if column is not None}
-    return fit.model.split(r.velocity, **given)["dry"]
+    dry, without = (friction_parts(fit.model, r, known)["dry"] for known in (load, load - of_rotor))
+    return [np.sign(r.velocity) * (dry - without)]
 
 
 ROTOR = MeasurementCause("a rotor whose inertia does not load the gear", _columns)

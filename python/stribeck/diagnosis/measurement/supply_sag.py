@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-import scipy.signal
 
+from stribeck.base.low_pass import first_order
 from stribeck.diagnosis.measurement.cause import Array, MeasurementCause
 from stribeck.fitting.result import Fit
 
-#: Time constants of a supply, s.
-LAGS = (0.0, 0.1, 0.4)
+#: Time constants of a supply that does not sag at once, s.
+LAGS = (0.1, 0.4)
 
 
 def _columns(fit: Fit) -> list[Array]:
@@ -20,9 +20,9 @@ def _columns(fit: Fit) -> list[Array]:
     largest = float(power.max())
     if not largest > 0.0:
         return []
-    shares = [1.0 / max(lag * r.rate_hz, 1.0) for lag in LAGS]
-    sags = (scipy.signal.lfilter([share], [1.0, share - 1.0], power / largest) for share in shares)
+    drawn = power / largest
+    sags = [drawn, *(first_order(drawn, r.dt, lag) for lag in LAGS)]
     return [-fit.prediction * sag for sag in sags]
 
 
-SUPPLY_SAG = MeasurementCause("a supply that sags with the power", _columns, rising=len(LAGS))
+SUPPLY_SAG = MeasurementCause("a supply that sags with the power", _columns, rising=1 + len(LAGS))

@@ -99,5 +99,4 @@ def _values_kept(model: Model, other: Model) -> Model:
 
 
 def _predicted(fit: Fit, model: Model) -> Array:
-    load = fit.load if fit.load is not None else own_load(fit.model, fit.recording)
-    return Problem(fit.recording, model, fit.rows, load).predict(model.values)[fit.rows]
+    return Problem(fit.recording, model, fit.rows, fit.own_load).predict(model.values)[fit.rows]

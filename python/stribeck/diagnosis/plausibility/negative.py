@@ -11,7 +11,7 @@ from stribeck.diagnosis.plausibility.claim import Array, Claim
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
 from stribeck.models.model import Model
-from stribeck.models.rigid_body import own_load
+from stribeck.models.parts import friction_parts
 
 #: Standard errors by which a value must be negative.
 BEYOND = 1.96
@@ -42,20 +42,7 @@ def negative_friction(claim: Claim) -> str | None:
 
 def _dry(fit: Fit, model: Model, rows: NDArray[np.intp]) -> Array:
     """Dry friction of some samples, array [m]."""
-    r = fit.recording
-    load = r.load_torque
-    if load is None:
-        load = fit.load if fit.load is not None else own_load(model, r)
-    columns = {
-        "position": r.position,
-        "acceleration": r.acceleration,
-        "temperature": r.temperature,
-        "load_torque": load,
-        "external_torque": r.external_torque,
-        "time": r.elapsed,
-    }
-    given = {name: column[rows] for name, column in columns.items() if column is not None}
-    return np.asarray(model.split(r.velocity[rows], **given)["dry"])
+    return friction_parts(model, fit.recording, fit.load_torque, rows)["dry"]
 
 
 def _error(fit: Fit, rows: NDArray[np.intp], dry: Array) -> Array:

@@ -79,8 +79,8 @@ def extended_model(before: Fit, effect: str) -> Model:
 
 def problem_of(model: Model, before: Fit) -> Problem:
     """The problem of another model on the samples of a fit, with its load torque and weights."""
-    load = before.load if before.load is not None else own_load(before.model, before.recording)
-    return Problem(before.recording, model, before.rows, load, loss_weight=before.loss_weight)
+    own, weight = before.own_load, before.loss_weight
+    return Problem(before.recording, model, before.rows, own, loss_weight=weight)
 
 
 def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:

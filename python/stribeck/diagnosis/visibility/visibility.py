@@ -25,7 +25,6 @@ from stribeck.identify.confounded import partners, reason
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import effect_row
-from stribeck.models.rigid_body import own_load
 
 #: Sine of the angle to a model from which it is not the model that hides an effect.
 NOT_ABSORBED = 0.3
@@ -92,16 +91,14 @@ def visibility(
 
 def problem_of(fit: Fit) -> Problem:
     """The problem that `fit` solves, with the load torque that an effect may depend on."""
-    load = fit.load if fit.load is not None else own_load(fit.model, fit.recording)
-    return Problem(fit.recording, fit.model, fit.rows, load)
+    return Problem(fit.recording, fit.model, fit.rows, fit.own_load)
 
 
 def _friction(fit: Fit) -> float:
     """RMS of the modelled friction: no addition is larger."""
     friction = fit.prediction - fit.recording.known_torque
-    load = own_load(fit.model, fit.recording)
-    if load is not None:
-        friction = friction - load
+    if fit.own_load is not None:
+        friction = friction - fit.own_load
     return rms(friction[fit.rows])
 
 

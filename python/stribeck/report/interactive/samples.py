@@ -10,7 +10,7 @@ import numpy as np
 from bokeh.models import ColumnDataSource
 from numpy.typing import NDArray
 
-from stribeck.report.channels import Channel, channel, clock, load_of, torque_name
+from stribeck.report.channels import Channel, channel, clock, torque_name
 from stribeck.report.interactive.base import model_name, shown_range
 from stribeck.report.interactive.decimate import MOST_DRAWN, drawn_rows
 
@@ -127,7 +127,7 @@ def samples_of(fits: Sequence[Fit], most: int = MOST_DRAWN) -> Samples:
     """
     last, r = fits[-1], fits[-1].recording
     found = _channels(last)
-    load = load_of(last)
+    load = last.load_torque
     rest = np.zeros_like(r.torque) if load is None else load
     scored = np.where(r.moving, 0.0, np.nan)
     # A line breaks at NaN: at each gap, and for models at rest.
@@ -142,7 +142,7 @@ def samples_of(fits: Sequence[Fit], most: int = MOST_DRAWN) -> Samples:
         "friction": r.torque - rest + scored,
     }
     for k, fit in enumerate(fits):
-        own = load_of(fit)
+        own = fit.load_torque
         modelled = fit.prediction + scored
         columns[f"modelled_{k}"] = modelled + gap
         columns[f"friction_{k}"] = modelled - (rest if own is None else own)
@@ -170,6 +170,6 @@ def gaps(r: Recording) -> NDArray[np.intp]:
 def friction_label(samples: Samples) -> str:
     """The label of measured friction: torque without the load, where there is one."""
     what = torque_name(samples.unit)
-    if load_of(samples.fits[-1]) is None:
+    if samples.fits[-1].load_torque is None:
         return f"{what} [{samples.unit}]"
     return f"friction {what} [{samples.unit}]"

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from stribeck.base.errors import SpecError
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.effect.describe import is_drive_train
-from stribeck.models.rigid_body import own_load
 from stribeck.motion.simulate.acting import friction_of
 from stribeck.report.channels import clock, torque_name
 from stribeck.report.plots.page import Page, centred
@@ -44,7 +43,7 @@ def load_torque(fits: Sequence[Fit]) -> Array:
     identified. Measured minus modelled friction of each fit is then its residual.
     """
     best = min(fits, key=lambda fit: fit.rmse)
-    own = best.load if best.load is not None else own_load(best.model, best.recording)
+    own = best.own_load
     return best.recording.known_torque if own is None or best.model.drive is not None else own
 
 
