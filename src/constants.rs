@@ -86,6 +86,10 @@ constants! {
     resonance_period ["s"] = 0.0, |x| x >= 0.0;
     /// Share of critical damping of that oscillation.
     resonance_damping ["1"] = 0.1, |x| x > 0.0 && x < 1.0;
+    /// Torque at which that drive train carries twice that of a linear spring; 0 if it is linear.
+    resonance_hardening ["T"] = 0.0, |x| x >= 0.0;
+    /// Part of the inertia of the load torque that does not oscillate: that of the motor.
+    resonance_motor_inertia ["T s2/X"] = 0.0, |x| x >= 0.0;
     /// Origin of temperature of a law; outside the data if the law is singular there.
     base_temperature ["degC"] = 0.0, |_| true;
     /// Speed over which the law smooths the sign of the velocity.

@@ -19,9 +19,11 @@ parameters! {
     ///
     /// Where the load torque changes faster than the drive train can follow, the joint oscillates
     /// about the motor, and the torque `ts` of the spring takes the place of the load torque: `tl`
-    /// behind a resonance with the period `2 pi/wn` and the share `zeta` of critical damping. With a
-    /// period of 0 the effect is the first order in `1/k`. The column holds the second derivative of
-    /// `ts`; period and damping only tell how it was made.
+    /// behind a resonance with the period `2 pi/wn` and the share `zeta` of critical damping. A spring
+    /// may harden with a cubic part (Tuttle and Seering 1996), and the inertia `Jm` of the motor does
+    /// not oscillate. With a period of 0 the effect is the first order in `1/k`. The column holds the
+    /// second derivative of `ts`, for a spring that hardens of its linear part; the constants only
+    /// tell how it was made.
     Elasticity {
         /// Inertia over stiffness: positive for the motor's inertia, negative for the joint's.
         elasticity: "c" ["s2"] -1.0 .. 1.0, start 0.0, SquareTime, Additive;
@@ -39,7 +41,12 @@ impl<S: Real> FrictionEffect<S> for Elasticity<S> {
         needs: "a load torque that changes fast, or positions on both sides of the drive train",
         beyond: None,
         channels: &[Channel::LoadTorqueCurvature],
-        constants: &["resonance_period", "resonance_damping"],
+        constants: &[
+            "resonance_period",
+            "resonance_damping",
+            "resonance_hardening",
+            "resonance_motor_inertia",
+        ],
         parameters: Self::TABLE,
     };
 

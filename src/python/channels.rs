@@ -58,7 +58,7 @@ pub fn low_pass<'py>(
 /// Second derivative of the torque of a spring on which the load resonates, array [n].
 ///
 /// `steps` [n] are the times since the sample before (s), `load` [n] is the load torque of a rigid
-/// drive train.
+/// drive train, `hardening` the torque at which the spring carries twice that of a linear one.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub fn spring_torque_curvature<'py>(
@@ -67,10 +67,12 @@ pub fn spring_torque_curvature<'py>(
     load: Array<'py>,
     period: f64,
     damping: f64,
+    hardening: Option<f64>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let resonance = Resonance::new(period, damping).ok_or_else(|| {
+    let resonance = Resonance::new(period, damping, hardening).ok_or_else(|| {
         ModelError::new_err(
-            "the period of a resonance must be above zero, its damping between zero and one",
+            "the period of a resonance and the torque at which its spring hardens must be above \
+             zero, its damping between zero and one",
         )
     })?;
     let (steps, load) = (contiguous(&steps), contiguous(&load));

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from stribeck.base.errors import option
@@ -16,12 +18,13 @@ from stribeck.effect.base import (
     number,
 )
 from stribeck.effect.facts import RecordingFacts
-from stribeck.effect.resonance import DAMPINGS, best_resonance, resonances
+from stribeck.effect.hardening import detailed_resonance
+from stribeck.effect.resonance import NONE, resonances
 from stribeck.models.model import Model
 from stribeck.recording.derive import Smoother
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import noise_level
-from stribeck.recording.spring_torque import spring_torque_curvature
+from stribeck.recording.spring_torque import Resonance
 
 #: A drive train that resonates at a lower frequency shows in any joint, Hz.
 SOFT_DRIVE = 5.0
@@ -63,12 +66,11 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
 def _constants_beside(
     recording: Recording, _: Array | None, residual: Array | None
 ) -> dict[str, float]:
-    period, damping = best_resonance(recording, residual)
-    return {"resonance_period": period, "resonance_damping": damping}
+    return detailed_resonance(recording, residual).constants
 
 
 def _generated_constants(_: GeneratedRecording) -> dict[str, float]:
-    return {"resonance_period": 0.0, "resonance_damping": DAMPINGS[0]}
+    return NONE.constants
 
 
 def _forms(recording: Recording) -> int:
@@ -86,19 +88,44 @@ def _refusal(model: Model, recording: Recording) -> str | None:
 
 
 def _where(before: Identified, after: Identified) -> str:
-    share, constants = after.model.value("elasticity"), after.model.core.constants
-    if period := constants["resonance_period"]:
-        carried = -share * (2.0 * np.pi / period) ** 2
+    share, resonance = after.model.value("elasticity"), _resonance(after)
+    if resonance.period > 0.0:
+        carried = -share * (2.0 * np.pi / resonance.period) ** 2
         return (
-            f"the residual oscillates as if {number(100.0 * carried, 2)} % of the load torque "
-            f"drove an inertia on a drive train that resonates at {number(1.0 / period)} Hz with "
-            f"{number(100.0 * constants['resonance_damping'], 2)} % of critical damping"
+            f"the residual oscillates as if {number(100.0 * carried, 2)} % of the load torque"
+            f"{_beyond_motor(after, resonance)} drove an inertia on a drive train that resonates "
+            f"at {number(1.0 / resonance.period)} Hz with "
+            f"{number(100.0 * resonance.damping, 2)} % of critical damping"
+            f"{_hardening(after, resonance)}"
         )
     side = "motor" if share > 0 else "joint"
     hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
     return (
         f"the residual follows the second derivative of the load torque, as if the inertia of the "
         f"{side} oscillated on the drive train at {number(float(hertz))} Hz{_smoothed(share)}"
+    )
+
+
+def _resonance(fit: Identified) -> Resonance:
+    return Resonance.of(fit.model.core.constants)
+
+
+def _beyond_motor(after: Identified, resonance: Resonance) -> str:
+    """The inertia of the load torque that does not oscillate, as words after it."""
+    if not resonance.motor_inertia > 0.0:
+        return ""
+    unit = "kg m2" if after.recording.joint_kind == "revolute" else "kg"
+    return f", without {number(resonance.motor_inertia)} {unit} of the motor,"
+
+
+def _hardening(after: Identified, resonance: Resonance) -> str:
+    """How a spring hardens, as a clause."""
+    if not resonance.hardening > 0.0:
+        return ""
+    linear, unit = number(resonance.hardening), after.model.load_unit
+    return (
+        f"; its spring hardens: where a linear one carries {linear} {unit}, it carries "
+        f"{number(2.0 * resonance.hardening)} {unit}"
     )
 
 
@@ -120,7 +147,7 @@ def _unresolved(after: Identified) -> str | None:
     A drive train that twists under the inertia of the motor has the other sign.
     """
     share, period = after.model.value("elasticity"), after.recording.scales()["sample_period"]
-    if after.model.core.constants["resonance_period"] > FEWEST_RESOLVED * period:
+    if _resonance(after).period > FEWEST_RESOLVED * period:
         return None
     if not -(period**2) <= share < 0.0:
         return None
@@ -133,15 +160,11 @@ def _unresolved(after: Identified) -> str | None:
 
 def _flexible_shape(fit: Identified) -> list[Array]:
     """Damping of the twist, the share of the motor's inertia, and resonances that are near."""
-    r, constants = fit.recording, fit.model.core.constants
+    r, own = fit.recording, _resonance(fit)
     if r.load_torque is None:
         return []
-    period, damping = constants["resonance_period"], constants["resonance_damping"]
-    near = [
-        spring_torque_curvature(r, period=by * period, damping=damping)
-        for by in NEAR
-        if period > 0.0
-    ]
+    others = [replace(own, period=by * own.period) for by in NEAR if own.period > 0.0]
+    near = [other.curvature(r) for other in others]
     smoother = Smoother(r.time, r.segment, None)
     rate = smoother.smooth(r.denoised("load_torque"), 1)
     motor = smoother.smooth(r.acceleration_smooth, 2)

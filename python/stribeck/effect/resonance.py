@@ -7,13 +7,15 @@ behind a resonance.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base import linear
 from stribeck.recording.derive import Smoother
 from stribeck.recording.recording import Recording
-from stribeck.recording.spring_torque import spring_torque_curvature
+from stribeck.recording.spring_torque import Resonance
 
 Array = NDArray[np.float64]
 
@@ -32,75 +34,115 @@ MORE = 1.5
 #: Share of the largest eigenvalue below which columns depend on each other.
 UNSEEN = 1e-10
 
+#: A drive train that follows the load torque at once.
+NONE = Resonance(damping=DAMPINGS[0])
 
-def resonances(recording: Recording) -> list[tuple[float, float]]:
-    """Periods, s, and shares of critical damping that the samples resolve."""
+
+def resonances(recording: Recording) -> list[Resonance]:
+    """Those of linear springs that the samples resolve."""
     highest = recording.rate_hz / FEWEST_SAMPLES
     if recording.load_torque is None or recording.averaged or highest <= LOWEST:
         return []
     frequencies = [LOWEST]
     while frequencies[-1] * RATIO <= highest:
         frequencies.append(frequencies[-1] * RATIO)
-    return [(1.0 / frequency, damping) for frequency in frequencies for damping in DAMPINGS]
+    return [
+        Resonance(1.0 / frequency, damping) for frequency in frequencies for damping in DAMPINGS
+    ]
 
 
-def best_resonance(recording: Recording, residual: Array | None = None) -> tuple[float, float]:
-    """Period, s, and share of critical damping of the oscillation that explains most.
+@dataclass(frozen=True)
+class Shown:
+    """What a residual shows of drive trains, beyond simpler causes.
+
+    Simpler are dry and viscous friction, and a load torque on another scale or late.
+
+    Attributes
+    ----------
+    rest : array [m]
+        The residual beyond simpler causes.
+    basis : array [m, k]
+        Orthonormal columns of the simpler causes.
+    """
+
+    recording: Recording
+    rows: NDArray[np.intp]
+    rest: Array
+    basis: Array
+
+    @classmethod
+    def of(cls, recording: Recording, residual: Array | None) -> Shown | None:
+        """That of a residual; default: of Coulomb and viscous friction. None without samples."""
+        rows = np.flatnonzero(recording.moving)
+        if rows.size == 0:
+            return None
+        rows = rows[:: -(-rows.size // SAMPLES)]
+        basis = _simpler(recording, rows)
+        given = recording.torque - recording.known_torque if residual is None else residual
+        return cls(recording, rows, beyond(basis, given[rows, None])[:, 0], basis)
+
+    def explained(self, shapes: Array) -> tuple[Array, Array]:
+        """What columns of torque [m, k], beyond simpler causes, explain of the rest.
+
+        Returns
+        -------
+        gains, factors : array [k]
+            Falls of the sum of squares, and factors of the columns.
+        """
+        sizes, along = np.einsum("nk,nk->k", shapes, shapes), shapes.T @ self.rest
+        factors = np.divide(along, sizes, out=np.zeros_like(along), where=sizes > 0.0)
+        return factors * along, factors
+
+
+def is_possible(frequency: Array, factor: Array) -> NDArray[np.bool_]:
+    """Whether no more than the load torque oscillates, at a frequency in rad/s."""
+    carried = -factor * frequency**2
+    return np.asarray((carried > 0.0) & (carried <= LARGEST_SHARE))
+
+
+def best_resonance(recording: Recording, residual: Array | None = None) -> Resonance:
+    """The oscillation on a linear spring that explains most.
+
+    `NONE` where a drive train that follows at once explains as much.
 
     Parameters
     ----------
     residual : array [n]
         Residual of a model; default: of Coulomb and viscous friction.
-
-    Returns
-    -------
-    tuple of float
-        A period of 0 where a drive train that follows at once explains as much.
     """
     forms = resonances(recording)
-    rows = np.flatnonzero(recording.moving)
-    if not forms or rows.size == 0:
-        return 0.0, DAMPINGS[0]
-    rows = rows[:: -(-rows.size // SAMPLES)]
-    shapes, basis = _shapes(recording, forms, rows)
-    given = recording.torque - recording.known_torque if residual is None else residual
-    rest = _beyond(basis, given[rows, None])[:, 0]
-    sizes, along = np.einsum("nk,nk->k", shapes, shapes), shapes.T @ rest
-    known = sizes > 0.0
-    shares = np.divide(along, sizes, out=np.zeros_like(along), where=known)
-    gains = shares * along
-    frequencies = np.array([2.0 * np.pi / period for period, _ in forms])
-    carried = -shares[1:] * frequencies**2
-    possible = (carried > 0.0) & (carried <= LARGEST_SHARE)
+    shown = Shown.of(recording, residual) if forms else None
+    if shown is None:
+        return NONE
+    gains, factors = shown.explained(_shapes(recording, forms, shown))
+    frequencies = np.array([2.0 * np.pi / form.period for form in forms])
+    possible = is_possible(frequencies, factors[1:])
     if not possible.any():
-        return 0.0, DAMPINGS[0]
+        return NONE
     best = int(np.argmax(np.where(possible, gains[1:], -1.0)))
-    if gains[1 + best] <= MORE * gains[0]:
-        return 0.0, DAMPINGS[0]
-    return forms[best]
+    return forms[best] if gains[1 + best] > MORE * gains[0] else NONE
 
 
-def _shapes(
-    recording: Recording, forms: list[tuple[float, float]], rows: NDArray[np.intp]
-) -> tuple[Array, Array]:
-    """The torque of each form beyond simpler causes, that of none first, and a basis of these.
-
-    Simpler are dry and viscous friction, and a load torque on another scale or late.
-    """
-    name = "torque of springs"
+def _simpler(recording: Recording, rows: NDArray[np.intp]) -> Array:
+    """Orthonormal columns [m, k] of causes that are simpler than a drive train that twists."""
+    name = "causes simpler than springs"
     if name not in recording.kept:
         load = recording.denoised("load_torque")
         rate = Smoother(recording.time, recording.segment, None).smooth(load, 1)
         v = recording.velocity
-        basis = _basis(np.column_stack([np.sign(v), v, np.ones_like(v), load, rate])[rows])
-        made = (
-            spring_torque_curvature(recording, period=period, damping=damping)
-            for period, damping in [(0.0, DAMPINGS[0]), *forms]
-        )
-        columns = np.column_stack([torque[rows] for torque in made if torque is not None])
-        recording.kept[name] = np.column_stack([_beyond(basis, columns), basis])
-    kept = recording.kept[name]
-    return kept[:, : 1 + len(forms)], kept[:, 1 + len(forms) :]
+        simpler = [np.sign(v), v, np.ones_like(v), load, rate]
+        recording.kept[name] = _basis(np.column_stack(simpler)[rows])
+    return recording.kept[name]
+
+
+def _shapes(recording: Recording, forms: list[Resonance], shown: Shown) -> Array:
+    """The torque of each form [m, k] beyond simpler causes, that of none first."""
+    name = "torque of springs"
+    if name not in recording.kept:
+        made = (form.curvature(recording) for form in (NONE, *forms))
+        columns = np.column_stack([torque[shown.rows] for torque in made if torque is not None])
+        recording.kept[name] = beyond(shown.basis, columns)
+    return recording.kept[name]
 
 
 def _basis(columns: Array) -> Array:
@@ -111,6 +153,6 @@ def _basis(columns: Array) -> Array:
     return np.asarray(scaled @ vectors[:, seen] / np.sqrt(values[seen]))
 
 
-def _beyond(basis: Array, values: Array) -> Array:
+def beyond(basis: Array, values: Array) -> Array:
     """Each column of `values` without what the basis explains of it."""
     return np.asarray(values - basis @ (basis.T @ values))

@@ -20,7 +20,7 @@ from stribeck.identify.weights import root_weights
 from stribeck.models.channels import ChannelArguments
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
-from stribeck.recording.spring_torque import spring_torque_curvature
+from stribeck.recording.spring_torque import Resonance
 
 Array = NDArray[np.float64]
 
@@ -108,12 +108,7 @@ class Problem:
         """Second derivative of the torque of the spring, for models that read it, array [n]."""
         if "elasticity" not in self.model.effects:
             return None
-        constants = self.model.core.constants
-        return spring_torque_curvature(
-            self.recording,
-            period=constants["resonance_period"],
-            damping=constants["resonance_damping"],
-        )
+        return Resonance.of(self.model.core.constants).curvature(self.recording)
 
     @cached_property
     def _temperature_rate(self) -> Array | None:

@@ -14,7 +14,7 @@ from stribeck.effect.columns import displacement_since_reversal
 from stribeck.effect.registry import find
 from stribeck.effect.ripple import ripple_period_of
 from stribeck.identify.figures import bridged, zero_phase
-from stribeck.recording.spring_torque import spring_torque_curvature
+from stribeck.recording.spring_torque import Resonance
 
 if TYPE_CHECKING:
     from stribeck.fitting.result import Fit
@@ -136,13 +136,10 @@ def _load_along(fit: Fit) -> Channel | None:
 
 
 def _load_curvature(fit: Fit) -> Channel | None:
-    constants, unit = fit.model.core.constants, fit.model.load_unit
-    # A model without elasticity has none.
-    period = constants.get("resonance_period", 0.0)
-    values = spring_torque_curvature(
-        fit.recording, period=period, damping=constants.get("resonance_damping", 1.0)
-    )
-    of = "torque in the drive train's spring" if period > 0.0 else "load"
+    # A model without elasticity has no resonance.
+    resonance, unit = Resonance.of(fit.model.core.constants), fit.model.load_unit
+    values = resonance.curvature(fit.recording)
+    of = "torque in the drive train's spring" if resonance.period > 0.0 else "load"
     return None if values is None else Channel(values, f"second derivative of the {of} [{unit}/s²]")
 
 
