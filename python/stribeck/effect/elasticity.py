@@ -115,7 +115,7 @@ def _beyond_motor(after: Identified, resonance: Resonance) -> str:
     if not resonance.motor_inertia > 0.0:
         return ""
     unit = "kg m2" if after.recording.joint_kind == "revolute" else "kg"
-    return f", without {number(resonance.motor_inertia)} {unit} of the motor,"
+    return f", without the {number(resonance.motor_inertia)} {unit} of the motor,"
 
 
 def _hardening(after: Identified, resonance: Resonance) -> str:

@@ -32,7 +32,8 @@ def late_stribeck(delay: float, rows: int = 6000, noise: float = NOISE) -> pl.Da
 class TwoInertias:
     """A motor and a joint with gravity, a spring with play between them.
 
-    Inertias in kg m2 as the joint feels them, stiffness in N m/rad, play in rad, weight in N m.
+    Inertias in kg m2 as the joint feels them, stiffness in N m/rad, play in rad, weight in N m; the
+    spring carries twice the torque of a linear one at a twist of `hardening` rad.
     """
 
     motor: float = 0.1
@@ -41,14 +42,18 @@ class TwoInertias:
     damping: float = 6.0
     play: float = 0.0
     weight: float = 8.0
+    hardening: float = np.inf
 
     def spring(self, twist: float, rate: float) -> float:
         """Torque that a twist of the drive train carries; flanks only push."""
         half = 0.5 * self.play
+        stiffness = self.stiffness * (1.0 + (twist / self.hardening) ** 2)
+        if not self.play:
+            return stiffness * twist + self.damping * rate
         if twist > half:
-            return max(self.stiffness * (twist - half) + self.damping * rate, 0.0)
+            return max(stiffness * (twist - half) + self.damping * rate, 0.0)
         if twist < -half:
-            return min(self.stiffness * (twist + half) + self.damping * rate, 0.0)
+            return min(stiffness * (twist + half) + self.damping * rate, 0.0)
         return 0.0
 
     def simulated(self, rows: int = 6000) -> dict[str, Array]:

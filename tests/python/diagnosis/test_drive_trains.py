@@ -10,6 +10,9 @@ import pytest
 import stribeck as sb
 from drive_trains import NOISE, TwoInertias, late_stribeck, reference
 from stribeck.base.errors import FitError
+from stribeck.effect.describe import where
+from stribeck.effect.resonance import best_resonance
+from stribeck.recording.spring_torque import Resonance
 from stribeck.report.finding_view import finding_view
 from synthetic import joint, motion, record
 
@@ -71,6 +74,28 @@ def test_a_load_that_oscillates_on_its_spring_is_elasticity_with_a_resonance(
     plain = sb.fit("coulomb", found[first].recording)
     assert found[first].rmse_held_out < 0.4 * plain.rmse_held_out
     assert "torque in the drive train's spring" in finding_view(first, plain, found[first]).x_label
+
+
+@pytest.mark.slow
+def test_a_spring_that_hardens_is_told_from_the_inertia_of_the_motor(tmp_path: Path) -> None:
+    drive = TwoInertias(motor=0.35, load=0.65, stiffness=600.0, damping=3.2, hardening=0.01)
+    frame = drive.recorded("motor", seen=True)[400:]
+    found = steps(tmp_path, frame)
+    assert list(found) == ["elasticity"]
+    after = found["elasticity"]
+    resonance = Resonance.of(after.model.core.constants)
+    assert 1.0 / resonance.period == pytest.approx(drive.resonance(), rel=0.05)
+    assert resonance.hardening == pytest.approx(drive.stiffness * drive.hardening, rel=0.1)
+    assert resonance.motor_inertia == pytest.approx(drive.motor, rel=0.1)
+    assert after.model.value("elasticity") == pytest.approx(-drive.load / drive.stiffness, rel=0.1)
+    plain = sb.fit("coulomb", after.recording)
+    assert after.rmse_held_out < 0.4 * plain.rmse_held_out
+    # No linear spring does as well.
+    simple = best_resonance(after.recording, plain.residual).constants
+    linear = plain.model.with_effect("elasticity", simple)
+    assert after.rmse_held_out < 0.6 * sb.fit(linear, after.recording, starts=1).rmse_held_out
+    said = where("elasticity", plain, after)
+    assert "without the 0.35" in said and "its spring hardens: where a linear one carries" in said
 
 
 def test_values_of_an_elasticity_keep_the_resonance_they_came_with(tmp_path: Path) -> None:
