@@ -13,7 +13,15 @@ import nlopt
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.effect.resonance import LOWEST, NONE, Shown, best_resonance, beyond, is_possible
+from stribeck.effect.resonance import (
+    DAMPINGS,
+    LOWEST,
+    NONE,
+    Shown,
+    best_resonance,
+    beyond,
+    is_possible,
+)
 from stribeck.recording.recording import Recording
 from stribeck.recording.spring_torque import Resonance
 
@@ -26,7 +34,7 @@ MORE = 1.2
 #: Ranges: ratio to the frequency of the linear spring, share of critical damping, ratio of the
 #: torque at which the spring hardens to the load torque, share of the inertia that is the motor's.
 LOWER = np.array([np.log(0.4), np.log(0.01), np.log(0.05), 0.0])
-UPPER = np.array([np.log(2.0), np.log(0.7), np.log(20.0), 1.0])
+UPPER = np.array([np.log(2.0), np.log(max(DAMPINGS)), np.log(20.0), 1.0])
 #: Starts: springs that are hard and less hard under the load torque.
 STARTS = tuple(np.array([0.0, np.log(0.1), np.log(hard), 0.2]) for hard in (0.5, 1.5))
 #: Most evaluations of a round, first step as a share of the ranges, and least change of the

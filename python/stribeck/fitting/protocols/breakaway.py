@@ -35,6 +35,9 @@ _CLEAR = 6.0
 _SIGMAS, _SHORTEST = 10.0, 0.1
 #: Over the last part of the rest, a line leaves at most this share of the torque's rise.
 _STRAIGHT = 0.15
+#: The torque around the instant: within so many of its errors, and in at least so many samples. It
+#: changes faster than on the ramp by more than so many standard errors.
+_NEAR, _AROUND, _BENDS = 2.0, 4, 2.0
 #: The motion is followed until it is this many times as fast as noise looks.
 _FAST = 12.0
 #: Least samples before the breakaway if the rest has them, and most on either side.
@@ -148,7 +151,8 @@ def _ramped(
     independent = max(t.size / correlation_length(residual), 2.0)
     spread = max(float(t.var()), 1e-300)
     own_error = scatter * float(np.sqrt((1.0 + t.mean() ** 2 / spread) / independent))
-    stderr = float(np.hypot(own_error, rate * error))
+    fastest = max(abs(rate), _rate_around(at - instant, own[rows], error))
+    stderr = float(np.hypot(own_error, fastest * error))
     dwell = instant - float(recording.time[rest.start])
     if abs(level) < _SIGMAS * stderr or dwell < _SHORTEST:
         return None
@@ -162,6 +166,20 @@ def _ramped(
         row=rest.stop,
         rows=rows.stop - rows.start,
     )
+
+
+def _rate_around(t: Array, y: Array, error: float) -> float:
+    """How fast the torque changes within the error of the instant, per s; 0 if it hardly does.
+
+    Where a move begins, the torque leaves the ramp before the joint slides.
+    """
+    near = np.abs(t) <= max(_NEAR * error, float(np.sort(np.abs(t))[_AROUND]))
+    line = np.column_stack([np.ones(near.sum()), t[near]])
+    level, rate = (float(x) for x in linear.least_norm(line, y[near]))
+    residual = y[near] - line @ np.array([level, rate])
+    freedom = max(near.sum() - 2, 1)
+    uncertain = float(np.sqrt(residual @ residual / freedom / near.sum() / t[near].var()))
+    return max(abs(rate) - _BENDS * uncertain, 0.0)
 
 
 def _onset_error(
