@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from stribeck.recording.arrays import Floats, Ints
@@ -17,6 +19,9 @@ from stribeck.recording.derived_motion import (
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
 from stribeck.recording.mend.late_velocity import Moved, late, note, torque_follows
+from stribeck.recording.mend.load_of_motion import differing
+from stribeck.recording.mend.load_of_motion import note as load_note
+from stribeck.recording.mend.load_of_motion import torque_follows as follows_motion
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.rows import (
     SIGMAS,
@@ -30,12 +35,20 @@ from stribeck.recording.rows import (
 __all__ = ["sampled"]
 
 
+@dataclass(frozen=True)
+class _Smoothers:
+    """Low-passes: of the velocity, and of the acceleration where that is derived."""
+
+    velocity: Smoother
+    acceleration: Smoother | None
+
+
 def sampled(data: Channels, layout: Layout) -> Recording:
     """The recording of channels sampled in time."""
     time = data.values["time"]
     segment, dt, typical = segment_rows(time, layout.run, data.sequence)
-    motion, smoother = _motion(data, layout, segment, typical)
-    loads = _loads(data, layout, motion, smoother)
+    motion, smoothers = _motion(data, layout, segment, typical)
+    loads = _loads(data, layout, motion, smoothers)
     block, count = held_out_blocks(dt, segment, layout.run, typical)
     clock = Clock(
         time=time,
@@ -51,7 +64,7 @@ def sampled(data: Channels, layout: Layout) -> Recording:
 
 def _motion(
     data: Channels, layout: Layout, segment: Ints, typical: float
-) -> tuple[Motion, Smoother]:
+) -> tuple[Motion, _Smoothers]:
     """Position, velocity and acceleration, derived where they were not recorded."""
     time = data.values["time"]
     position, velocity = data.values.get("position"), data.values.get("velocity")
@@ -78,9 +91,11 @@ def _motion(
         unit = f"{layout.position_unit}/s"
         data.columns["velocity"] = Column.of("velocity", "position", unit, True, velocity)
         data.notes.append(_derived_note("velocity", "position", cutoff))
+    derived: Smoother | None = None
     if acceleration is None:
         highest = acceleration_cutoff(time, velocity, segment, typical, cutoff)
-        acceleration = Smoother(time, segment, highest).smooth(source, derivative)
+        derived = Smoother(time, segment, highest)
+        acceleration = derived.smooth(source, derivative)
         acceleration_smooth = acceleration
         unit = f"{layout.position_unit}/s2"
         data.columns["acceleration"] = Column.of("acceleration", origin, unit, True, acceleration)
@@ -99,7 +114,7 @@ def _motion(
         cutoff,
         left,
     )
-    return motion, smoother
+    return motion, _Smoothers(smoother, derived)
 
 
 def _is_replaced(data: Channels, segment: Ints, period: float, threshold: float) -> bool:
@@ -124,11 +139,12 @@ def _is_replaced(data: Channels, segment: Ints, period: float, threshold: float)
     return True
 
 
-def _loads(data: Channels, layout: Layout, motion: Motion, smoother: Smoother) -> Loads:
+def _loads(data: Channels, layout: Layout, motion: Motion, smoothers: _Smoothers) -> Loads:
     torque, load = measured_torque(data)
-    if load is not None:
-        return Loads(torque, load, smoother.smooth(load))
     kind = layout.joint_kind
+    if load is not None:
+        load = _of_motion(data, layout, motion, smoothers, torque, load)
+        return Loads(torque, load, smoothers.velocity.smooth(load))
     unit = layout.torque_unit if data.prepared.settings.drive is None else natural_unit(kind)
     load = rigid_body_load(data, motion.position, motion.acceleration, unit, smooth=False)
     smooth: Floats | None = None
@@ -137,6 +153,31 @@ def _loads(data: Channels, layout: Layout, motion: Motion, smoother: Smoother) -
             data, motion.position_smooth, motion.acceleration_smooth, unit, smooth=True
         )
     return Loads(torque, load, smooth)
+
+
+def _of_motion(
+    data: Channels,
+    layout: Layout,
+    motion: Motion,
+    smoothers: _Smoothers,
+    torque: Floats,
+    load: Floats,
+) -> Floats:
+    """The load torque with the acceleration of the motion, where the torque follows that; noted."""
+    if data.prepared.settings.trust or "torque" not in data.values:
+        return load
+    moving = np.abs(motion.velocity_smooth) > SIGMAS * motion.velocity_noise
+    position = motion.position if layout.joint_kind == "revolute" else None
+    alike = load if smoothers.acceleration is None else smoothers.acceleration.smooth(load)
+    found = differing(alike, motion.acceleration, position, moving)
+    if found is None:
+        return load
+    if not follows_motion(found, torque, load, motion.velocity, position, moving):
+        return load
+    data.notes.append(
+        load_note(found.inertia, "kg m2" if layout.joint_kind == "revolute" else "kg")
+    )
+    return load - found.torque
 
 
 def _derived_note(name: str, source: str, cutoff: float | None) -> str:

@@ -17,11 +17,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.diagnosis.measurement.noisy_load import NOISY_LOAD
+from stribeck.diagnosis.measurement.other_acceleration import OTHER_ACCELERATION
 from stribeck.diagnosis.measurement.table import (
     least_factors,
     measurement_columns,
     without_effect,
 )
+from stribeck.diagnosis.trials.evidence import Difference
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
@@ -92,6 +94,13 @@ class _Rivals:
         return better > TIE or self.leave(trial, tried, 0.0 if better > 0.0 else least / 2)
 
     @property
+    def explains(self) -> float:
+        """Standard errors by which they lower the held-out error of the fit."""
+        before = self.before
+        own = before.weighted(before.held_out_residual[before.rows]) ** 2
+        return Difference.of(own - self.together.held_out**2).statistic
+
+    @property
     def largest(self) -> str:
         """The cause that alone leaves the smallest held-out error."""
         return min(self.alone, key=lambda what: float(np.sum(self.alone[what].held_out ** 2)))
@@ -152,9 +161,14 @@ def _drive_train_judged(
 ) -> Sifted:
     """The same, with an effect of the drive train judged beside the noise of the load torque.
 
-    All causes in the measurement together smooth the load torque as it does, so that what it adds
+    Where the load torque is that of another acceleration, such an effect is not certain. All causes
+    in the measurement together smooth the load torque as it does, so that what it adds
     to them says nothing. Where they predict as well it is not certain.
     """
+    other = rivals.only(OTHER_ACCELERATION.what)
+    if other is not None and other.explains > TIE:
+        reason = f"{OTHER_ACCELERATION.what} looks like a drive train that twists"
+        return sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
     noise = rivals.only(NOISY_LOAD.what)
     if noise is not None and not noise.let_stand(trial, tried, least):
         return sift.instead(trial, _explained(trial, noise, noise.advantage(trial)))
