@@ -164,7 +164,8 @@ def _of_motion(
     load: Floats,
 ) -> Floats:
     """The load torque with the acceleration of the motion, where the torque follows that; noted."""
-    if data.prepared.settings.trust or "torque" not in data.values:
+    settings = data.prepared.settings
+    if settings.trust or settings.drive is not None or "torque" not in data.values:
         return load
     moving = np.abs(motion.velocity_smooth) > SIGMAS * motion.velocity_noise
     position = motion.position if layout.joint_kind == "revolute" else None
@@ -174,10 +175,12 @@ def _of_motion(
         return load
     if not follows_motion(found, torque, load, motion.velocity, position, moving):
         return load
-    data.notes.append(
-        load_note(found.inertia, "kg m2" if layout.joint_kind == "revolute" else "kg")
-    )
-    return load - found.torque
+    unit = "kg m2" if layout.joint_kind == "revolute" else "kg"
+    data.notes.append(load_note(found.inertia, unit))
+    given, mended = data.columns["load_torque"], load - found.torque
+    source = f"{given.source} and the motion"
+    data.columns["load_torque"] = Column.of("load_torque", source, given.unit, True, mended)
+    return mended
 
 
 def _derived_note(name: str, source: str, cutoff: float | None) -> str:
