@@ -5,18 +5,22 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.trend import trend
 from synthetic import Array, joint, motion, record
 
 #: Seconds until the amplifier is warm, gain and zero (N m) in excess at the start.
 SETTLES, GAIN, ZERO = 8.0, 0.06, 0.4
 
 
-def through_the_amplifier(extra: Array | float = 0.0, *, rows: int = 6000) -> object:
+def through_the_amplifier(
+    extra: Array | float = 0.0, *, rows: int = 6000, settles: float = SETTLES
+) -> pl.DataFrame:
     """A joint with `extra` torque, measured by an amplifier that warms up."""
     frame = joint(extra, rows=rows)
-    cold = np.exp(-frame["time"].to_numpy() / SETTLES)
+    cold = np.exp(-frame["time"].to_numpy() / settles)
     torque = frame["torque"].to_numpy()
     return frame.with_columns(torque=torque * (1.0 + GAIN * cold) + ZERO * cold)
 
@@ -36,6 +40,17 @@ def test_it_is_named_and_said(tmp_path: Path) -> None:
     first = found.findings[0]
     assert first.effect == "warm_up"
     assert "too much of all torque" in first.where and "time constant of 8" in first.where
+
+
+def test_it_is_named_without_a_temperature(tmp_path: Path) -> None:
+    """That the gain changes over the recording, and not friction, is what it says."""
+    frame = through_the_amplifier(settles=30.0).drop("temperature")
+    fit = sb.fit("coulomb", record(tmp_path, frame))
+    found_trend = trend(fit)
+    assert found_trend is not None and found_trend.cause == "gain"
+    found = sb.diagnose(fit, brief=True)
+    assert found.findings[0].effect == "warm_up"
+    assert found.findings[0].confidence > 0.9
 
 
 @pytest.mark.slow

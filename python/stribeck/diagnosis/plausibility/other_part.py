@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.trend import DRY, trend
+from stribeck.effect.describe import is_friction
 from stribeck.models.catalog import effect_row
 
 
 def other_part_changes(claim: Claim) -> str | None:
     """Which other part of the model changes with time instead; None where it is dry friction.
 
-    A drift of dry friction imitates that of viscous friction or of the motor's torque.
+    A drift of dry friction imitates that of viscous friction or of the motor's torque. An amplifier
+    that warms up changes every part.
     """
     row = effect_row(claim.effect)
-    if row is None or "time" not in row["channels"]:
+    if row is None or "time" not in row["channels"] or not is_friction(claim.effect):
         return None
     found = trend(claim.before)
     if found is None:
