@@ -29,12 +29,15 @@ class MeasurementCause:
         How many of the columns, the last ones, cannot have a negative factor.
     through
         The channel of which it shows a wrong value: it acts where friction depends on that.
+    imitates
+        Effects other than friction that it looks like; friction must stand beside every cause.
     """
 
     what: str
     columns: Callable[[Fit], list[Array]]
     rising: int = 0
     through: str | None = None
+    imitates: tuple[str, ...] = ()
 
     def acts_without(self, effect: str, fit: Fit) -> bool:
         """Whether it acts on a fit without `effect`, by which friction may first depend on it."""

@@ -37,4 +37,6 @@ def _columns(fit: Fit) -> list[Array]:
     return [column for column in made if column.any()]
 
 
-NOISY_LOAD = MeasurementCause("noise of the load torque", _columns)
+NOISY_LOAD = MeasurementCause(
+    "noise of the load torque", _columns, imitates=("elasticity", "backlash")
+)

@@ -40,5 +40,8 @@ def _as_smooth(r: Recording, load: Array) -> Array:
 
 
 OTHER_ACCELERATION = MeasurementCause(
-    "a load torque of another acceleration than the motion's", _columns, rising=1
+    "a load torque of another acceleration than the motion's",
+    _columns,
+    rising=1,
+    imitates=("elasticity", "backlash", "inertia", "delay"),
 )

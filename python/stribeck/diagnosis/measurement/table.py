@@ -43,6 +43,11 @@ def without_effect(columns: Mapping[str, Array], effect: str, fit: Fit) -> dict[
     return {what: made for what, made in columns.items() if what in acting}
 
 
+def imitating(effect: str) -> list[str]:
+    """The causes that look like an effect which is no friction."""
+    return [cause.what for cause in CAUSES if effect in cause.imitates]
+
+
 def least_factors(columns: Mapping[str, Array]) -> Array:
     """The least factor that each of these columns, one after the other, may have [k]."""
     rising = {cause.what: cause.rising for cause in CAUSES}

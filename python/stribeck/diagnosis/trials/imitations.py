@@ -5,8 +5,8 @@ can imitate. A friction effect stands if it explains something beside the column
 causes, or predicts better than they do. Otherwise it is not claimed where they predict better, and
 demoted where both do equally well.
 
-A drive train that twists smooths the load torque, as a filter of it does: it must stand beside the
-noise of the load torque, and is never certain where the others predict as well.
+Other effects must stand beside the causes that look like them. A drive train that twists smooths
+the load torque, as a filter of it does: it is never certain where all causes predict as well.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stribeck.diagnosis.measurement.noisy_load import NOISY_LOAD
 from stribeck.diagnosis.measurement.other_acceleration import OTHER_ACCELERATION
 from stribeck.diagnosis.measurement.table import (
+    imitating,
     least_factors,
     measurement_columns,
     without_effect,
@@ -117,14 +117,14 @@ def without_imitations(
         Trials that passed the test of evidence: of an effect that contains a simpler one among
         them, what it adds to that must stand too.
     """
-    suspects = [t for t in sift.stand if is_friction(t.effect) or is_drive_train(t.effect)]
+    suspects = [t for t in sift.stand if is_friction(t.effect) or imitating(t.effect)]
     columns = measurement_columns(before) if suspects else {}
     if not columns:
         return sift
     of_measurement = _Rivals.beside(before, columns)
     for trial in suspects:
-        if is_drive_train(trial.effect):
-            sift = _drive_train_judged(sift, trial, of_measurement, tried, least)
+        if not is_friction(trial.effect):
+            sift = _other_judged(sift, trial, of_measurement, tried, least)
             continue
         unseen = _lacks_simpler(trial, before, passed)
         rivals = _with_zero(before) if unseen else of_measurement.of(trial.effect)
@@ -156,22 +156,23 @@ def _explained(trial: Trial, rivals: _Rivals, better: float) -> Sifted:
     return Sifted(demoted=(Doubted(trial, f"{rivals.largest} explains it as well"),))
 
 
-def _drive_train_judged(
-    sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float
-) -> Sifted:
-    """The same, with an effect of the drive train judged beside the noise of the load torque.
+def _other_judged(sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float) -> Sifted:
+    """The same, with an effect that is no friction judged beside the causes that look like it.
 
-    Where the load torque is that of another acceleration, such an effect is not certain. All causes
-    in the measurement together smooth the load torque as it does, so that what it adds
-    to them says nothing. Where they predict as well it is not certain.
+    An effect of the drive train is not certain where the load torque is that of another
+    acceleration. All causes in the measurement together smooth the load torque as it does, so that
+    what it adds to them says nothing. Where they predict as well it is not certain.
     """
-    other = rivals.only(OTHER_ACCELERATION.what)
+    alone = {what: one for what in imitating(trial.effect) if (one := rivals.only(what))}
+    for one in alone.values():
+        if not one.let_stand(trial, tried, least):
+            return sift.instead(trial, _explained(trial, one, one.advantage(trial)))
+    if not is_drive_train(trial.effect):
+        return sift
+    other = alone.get(OTHER_ACCELERATION.what)
     if other is not None and other.explains > TIE:
         reason = f"{OTHER_ACCELERATION.what} looks like a drive train that twists"
         return sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
-    noise = rivals.only(NOISY_LOAD.what)
-    if noise is not None and not noise.let_stand(trial, tried, least):
-        return sift.instead(trial, _explained(trial, noise, noise.advantage(trial)))
     return sift.narrowed(trial) if rivals.advantage(trial) <= SIMPLEST else sift
 
 
