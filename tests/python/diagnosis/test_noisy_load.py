@@ -75,7 +75,7 @@ def test_the_reason_is_said(tmp_path: Path) -> None:
 
 
 def test_differences_are_no_elasticity(tmp_path: Path) -> None:
-    recording = record(tmp_path, idle_joint(0.0, load="differences"))
+    recording = record(tmp_path, idle_joint(0.0, load="differences"), trust=True)
     fitted = sb.fit("coulomb+elasticity", recording, starts=1)
     # Central differences, taken twice, add dt^2/3 of the second derivative.
     share = fitted.model.value("elasticity")
