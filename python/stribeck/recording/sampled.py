@@ -19,7 +19,7 @@ from stribeck.recording.derived_motion import (
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
 from stribeck.recording.mend.late_velocity import Moved, late, note, torque_follows
-from stribeck.recording.mend.load_of_motion import differing
+from stribeck.recording.mend.load_of_motion import differing, slow_cutoff
 from stribeck.recording.mend.load_of_motion import note as load_note
 from stribeck.recording.mend.load_of_motion import torque_follows as follows_motion
 from stribeck.recording.recording import Column, Recording
@@ -37,10 +37,11 @@ __all__ = ["sampled"]
 
 @dataclass(frozen=True)
 class _Smoothers:
-    """Low-passes: of the velocity, and of the acceleration where that is derived."""
+    """Low-passes: of velocity, of an acceleration that is derived, and of slow motion."""
 
     velocity: Smoother
     acceleration: Smoother | None
+    slow: Smoother
 
 
 def sampled(data: Channels, layout: Layout) -> Recording:
@@ -114,7 +115,8 @@ def _motion(
         cutoff,
         left,
     )
-    return motion, _Smoothers(smoother, derived)
+    slow = Smoother(time, segment, slow_cutoff(time, velocity, segment))
+    return motion, _Smoothers(smoother, derived, slow)
 
 
 def _is_replaced(data: Channels, segment: Ints, period: float, threshold: float) -> bool:
@@ -170,7 +172,7 @@ def _of_motion(
     moving = np.abs(motion.velocity_smooth) > SIGMAS * motion.velocity_noise
     position = motion.position if layout.joint_kind == "revolute" else None
     alike = load if smoothers.acceleration is None else smoothers.acceleration.smooth(load)
-    found = differing(alike, motion.acceleration, position, moving)
+    found = differing(alike, motion.acceleration, position, moving, smoothers.slow.smooth)
     if found is None:
         return load
     if not follows_motion(found, torque, load, motion.velocity, position, moving):

@@ -10,7 +10,7 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 from stribeck.recording.derive import Smoother
 from stribeck.recording.derived_motion import acceleration_cutoff
-from stribeck.recording.mend.load_of_motion import differing
+from stribeck.recording.mend.load_of_motion import differing, slow_cutoff
 from stribeck.recording.recording import Recording
 
 #: Least difference, as a share of the load torque.
@@ -22,7 +22,9 @@ def _columns(fit: Fit) -> list[Array]:
     if r.load_torque is None or r.acceleration is None or r.averaged:
         return []
     position = r.position if r.joint_kind == "revolute" else None
-    found = differing(_as_smooth(r, r.load_torque), r.acceleration, position, r.moving)
+    slow = Smoother(r.time, r.segment, slow_cutoff(r.time, r.velocity, r.segment))
+    load = _as_smooth(r, r.load_torque)
+    found = differing(load, r.acceleration, position, r.moving, slow.smooth)
     if found is None or rms(found.torque[r.moving]) < LEAST * rms(r.load_torque[r.moving]):
         return []
     return [-found.torque]

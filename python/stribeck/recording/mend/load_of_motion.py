@@ -8,16 +8,20 @@ torque follows the motion, the motion gives the load torque.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from stribeck.base import linear
 from stribeck.base.errors import option
-from stribeck.recording.arrays import Bools, Floats
+from stribeck.recording.arrays import Bools, Floats, Ints
+from stribeck.recording.derive import motion_band
 
-__all__ = ["Differing", "differing", "note", "torque_follows"]
+__all__ = ["Differing", "differing", "note", "slow_cutoff", "torque_follows"]
 
+#: Motion that any controller follows, in bands of the motion.
+_SLOW = 2.0
 #: Least share of the variance of the acceleration that the load torque explains: it holds inertia.
 _INERTIAL = 0.5
 #: The torque lacks the difference: what is left without it exceeds the least that is left with any
@@ -44,7 +48,11 @@ class Differing:
 
 
 def differing(
-    load: Floats, acceleration: Floats, position: Floats | None, moving: Bools
+    load: Floats,
+    acceleration: Floats,
+    position: Floats | None,
+    moving: Bools,
+    slow: Callable[[Floats], Floats],
 ) -> Differing | None:
     """How a load torque differs from that of the motion; None where it holds no inertia.
 
@@ -54,20 +62,37 @@ def differing(
         Smoothed alike, so that they differ by no more than what was smoothed away.
     position : array [n]
         Of a revolute joint; None otherwise.
+    slow
+        Smooths both further, to motion so slow that any controller follows its reference.
     """
     gravity = _gravity(load, position)
-    # The load torque has no noise of the motion: its factor is not lowered by noise.
-    known = np.column_stack([load, gravity])
-    if moving.sum() <= known.shape[1]:
+    inertia = _inertia(slow(load), slow(acceleration), gravity, moving)
+    if inertia is None:
         return None
-    factors = linear.least_norm(known[moving], acceleration[moving])
-    beyond = _beyond(gravity[moving], acceleration[moving])
-    left = acceleration[moving] - known[moving] @ factors
-    if not factors[0] > 0.0 or left @ left > (1.0 - _INERTIAL) * (beyond @ beyond):
-        return None
-    inertia = 1.0 / float(factors[0])
     rest = load - inertia * acceleration
     return Differing(inertia, rest - gravity @ linear.least_norm(gravity[moving], rest[moving]))
+
+
+def slow_cutoff(time: Floats, velocity: Floats, segment: Ints) -> float | None:
+    """Cut-off [Hz] of motion that any controller follows; None where it is too short."""
+    band = motion_band(time, velocity, segment)
+    return None if band is None else _SLOW * band
+
+
+def _inertia(load: Floats, acceleration: Floats, gravity: Floats, moving: Bools) -> float | None:
+    """The inertia in a load torque, by regression of the acceleration on it; None without one.
+
+    The load torque has no noise of the motion, so noise does not lower the factor.
+    """
+    known = np.column_stack([load, gravity])[moving]
+    if known.shape[0] <= known.shape[1]:
+        return None
+    factors = linear.least_norm(known, acceleration[moving])
+    beyond = _beyond(gravity[moving], acceleration[moving])
+    left = acceleration[moving] - known @ factors
+    if not factors[0] > 0.0 or left @ left > (1.0 - _INERTIAL) * (beyond @ beyond):
+        return None
+    return 1.0 / float(factors[0])
 
 
 def torque_follows(
