@@ -28,6 +28,7 @@ def test_a_curve_in_the_place_of_a_gap_is_demoted(tmp_path: Path) -> None:
     assert not found.steps and found.last.verdict == "unexplained"
     (doubted,) = found.last.demoted
     assert doubted.effect == "stribeck" and doubted.demoted == OTHER_FORM
+    assert doubted.confidence <= 0.5
 
 
 def test_two_effects_of_the_same_variable_are_found(tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
 from stribeck.diagnosis.loop.remainder import part_explained, unknown_structure
 from stribeck.diagnosis.loop.superfluous import Needed, brought_by, model_without, without_effects
+from stribeck.diagnosis.plausibility.rules import DEMOTED
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.imitations import NARROW
@@ -138,7 +139,8 @@ class ImprovementPath:
         """The path without an effect that the recording needs, but that may be another cause."""
         finding = self.steps[self._place(effect)].finding
         shorter = self.without(effect, seed, reason)
-        return replace(shorter, demoted=(*self.demoted, replace(finding, demoted=reason)))
+        doubted = replace(finding, weight=min(finding.weight, DEMOTED), demoted=reason)
+        return replace(shorter, demoted=(*self.demoted, doubted))
 
     def _place(self, effect: str) -> int:
         return next(k for k, step in enumerate(self.steps) if step.finding.effect == effect)
