@@ -12,17 +12,21 @@ def other_part_changes(claim: Claim) -> str | None:
     """Which other part of the model changes with time instead; None where it is dry friction.
 
     A drift of dry friction imitates that of viscous friction or of the motor's torque. An amplifier
-    that warms up changes every part.
+    that warms up changes every part, and no friction alone.
     """
     row = effect_row(claim.effect)
-    if row is None or "time" not in row["channels"] or not is_friction(claim.effect):
+    if row is None or "time" not in row["channels"]:
         return None
     found = trend(claim.before)
     if found is None:
         return None
+    changing = [name for name, change in found.changes.items() if change.clear]
+    if not is_friction(claim.effect):
+        if found.cause != "friction":
+            return None
+        return f"over the recording {' and '.join(changing)} changes, not the gain"
     if found.cause == "gain":
         return "the load and friction change by the same share over the recording: it is the gain"
     if found.changes[DRY].clear:
         return None
-    others = [name for name, change in found.changes.items() if change.clear]
-    return f"over the recording {' and '.join(others)} changes, not dry friction"
+    return f"over the recording {' and '.join(changing)} changes, not dry friction"

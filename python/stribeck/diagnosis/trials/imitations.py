@@ -36,6 +36,8 @@ ZERO = "a zero of the torque that is off"
 #: The highest confidence of an effect that predicts better than the causes in the measurement by no
 #: more than one standard error: about as often it is right on simulated recordings.
 NARROW = 0.95
+#: Share of what an effect of the drive train explains from which on another cause puts it in doubt.
+MUCH = 0.5
 
 
 def beside_causes(before: Fit, columns: Mapping[str, Array]) -> FlexibleRefit:
@@ -93,12 +95,16 @@ class _Rivals:
         better = self.advantage(trial)
         return better > TIE or self.leave(trial, tried, 0.0 if better > 0.0 else least / 2)
 
-    @property
-    def explains(self) -> float:
-        """Standard errors by which they lower the held-out error of the fit."""
-        before = self.before
-        own = before.weighted(before.held_out_residual[before.rows]) ** 2
-        return Difference.of(own - self.together.held_out**2).statistic
+    def share_of(self, trial: Trial) -> float:
+        """What they explain of the squared held-out error, as a share of what a trial does.
+
+        0 where that is less than two standard errors.
+        """
+        before, rows = self.before, self.before.rows
+        own = before.weighted(before.held_out_residual[rows]) ** 2
+        along = before.weighted(trial.fit.held_out_residual[rows]) ** 2
+        gain = Difference.of(own - self.together.held_out**2)
+        return gain.total / float(np.sum(own - along)) if gain.statistic > TIE else 0.0
 
     @property
     def largest(self) -> str:
@@ -159,9 +165,9 @@ def _explained(trial: Trial, rivals: _Rivals, better: float) -> Sifted:
 def _other_judged(sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float) -> Sifted:
     """The same, with an effect that is no friction judged beside the causes that look like it.
 
-    An effect of the drive train is not certain where the load torque is that of another
-    acceleration. All causes in the measurement together smooth the load torque as it does, so that
-    what it adds to them says nothing. Where they predict as well it is not certain.
+    An effect of the drive train is not certain where a load torque of another acceleration explains
+    much of what it does. All causes in the measurement together smooth the load torque as it does,
+    so that what it adds to them says nothing. Where they predict as well it is not certain.
     """
     alone = {what: one for what in imitating(trial.effect) if (one := rivals.only(what))}
     for one in alone.values():
@@ -170,7 +176,7 @@ def _other_judged(sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least
     if not is_drive_train(trial.effect):
         return sift
     other = alone.get(OTHER_ACCELERATION.what)
-    if other is not None and other.explains > TIE:
+    if other is not None and other.share_of(trial) >= MUCH:
         reason = f"{OTHER_ACCELERATION.what} looks like a drive train that twists"
         return sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
     return sift.narrowed(trial) if rivals.advantage(trial) <= SIMPLEST else sift
