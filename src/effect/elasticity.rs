@@ -38,7 +38,7 @@ impl<S: Real> FrictionEffect<S> for Elasticity<S> {
         what: "The drive train twists under the load torque, so motor and joint have \
                different accelerations.",
         formula: "tf + c d2(ts)/dt2; \
-                  tl - Jm a = ts (1 + (ts/th)^2) + 2 zeta/wn dts/dt + 1/wn^2 d2(ts)/dt2",
+                  tl - Jm a = ts (1 + (ts/tk)^2) + 2 zeta/wn dts/dt + 1/wn^2 d2(ts)/dt2",
         needs: "a load torque that changes fast, or positions on both sides of the drive train",
         beyond: None,
         channels: &[Channel::LoadTorqueCurvature],

@@ -39,7 +39,7 @@ CONSTANTS = {
     "vr": "reference speed of the recording",
     "wn": "angular frequency of the resonance: infinite where the drive train has none",
     "zeta": "share of critical damping of the resonance",
-    "th": "torque at which the spring carries twice that of a linear one: infinite if it is linear",
+    "tk": "torque at which the spring carries twice that of a linear one: infinite if it is linear",
     "Jm": "inertia of the motor: zero where all of the load torque oscillates",
     "xr": "reference torque: the 99th percentile of the motor torque",
 }
