@@ -101,7 +101,7 @@ class _Search:
         return self.at(best)
 
     def _from(self, start: Array) -> Array:
-        """Search coordinates where a round from others ends."""
+        """Search coordinates where a round from others ends; there where nlopt fails."""
         optimiser = nlopt.opt(nlopt.LN_SBPLX, start.size)
         optimiser.set_lower_bounds(LOWER)
         optimiser.set_upper_bounds(UPPER)
@@ -110,7 +110,10 @@ class _Search:
         optimiser.set_ftol_abs(TOLERANCE)
         tiny = np.finfo(float).tiny
         optimiser.set_max_objective(lambda x, _: float(np.log(max(self._gain_at(x), tiny))))
-        return np.asarray(optimiser.optimize(start))
+        try:
+            return np.asarray(optimiser.optimize(start))
+        except (nlopt.RoundoffLimited, nlopt.runtime_error):
+            return start
 
     def _gain_at(self, x: Array) -> float:
         return self.gain(self.at(x))

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import nlopt
 import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
 from drive_trains import NOISE, TwoInertias, late_stribeck, reference
 from stribeck.base.errors import FitError
+from stribeck.effect import hardening
 from stribeck.effect.describe import where
 from stribeck.effect.resonance import best_resonance
 from stribeck.recording.spring_torque import Resonance
@@ -96,6 +98,23 @@ def test_a_spring_that_hardens_is_told_from_the_inertia_of_the_motor(tmp_path: P
     assert after.rmse_held_out < 0.6 * sb.fit(linear, after.recording, starts=1).rmse_held_out
     said = where("elasticity", plain, after)
     assert "without the 0.35" in said and "its spring hardens: where a linear one carries" in said
+
+
+def test_a_search_that_fails_leaves_the_linear_spring(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    class Stuck(nlopt.opt):
+        def optimize(self, start: object) -> object:
+            asked.append(start)
+            raise nlopt.RoundoffLimited
+
+    monkeypatch.setattr(hardening.nlopt, "opt", Stuck)
+    frame = TwoInertias().recorded("motor", rows=2000, seen=True)[400:]
+    recording = record(tmp_path, frame)
+    assert hardening.detailed_resonance(recording).hardening == 0.0
+    assert len(asked) >= 2
 
 
 def test_values_of_an_elasticity_keep_the_resonance_they_came_with(tmp_path: Path) -> None:
