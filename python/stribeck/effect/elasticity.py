@@ -21,6 +21,7 @@ from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.hardening import detailed_resonance
 from stribeck.effect.resonance import NONE, resonances
 from stribeck.models.model import Model
+from stribeck.models.parameter import joint_unit
 from stribeck.recording.derive import Smoother
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import noise_level
@@ -114,7 +115,7 @@ def _beyond_motor(after: Identified, resonance: Resonance) -> str:
     """The inertia of the load torque that does not oscillate, as words after it."""
     if not resonance.motor_inertia > 0.0:
         return ""
-    unit = "kg m2" if after.recording.joint_kind == "revolute" else "kg"
+    unit = joint_unit("T s2/X", after.model.load_unit, after.model.position_unit)
     return f", without the {number(resonance.motor_inertia)} {unit} of the motor,"
 
 

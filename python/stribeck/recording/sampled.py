@@ -37,11 +37,10 @@ __all__ = ["sampled"]
 
 @dataclass(frozen=True)
 class _Smoothers:
-    """Low-passes: of velocity, of an acceleration that is derived, and of slow motion."""
+    """Low-passes: of velocity, and of an acceleration that is derived."""
 
     velocity: Smoother
     acceleration: Smoother | None
-    slow: Smoother
 
 
 def sampled(data: Channels, layout: Layout) -> Recording:
@@ -115,8 +114,7 @@ def _motion(
         cutoff,
         left,
     )
-    slow = Smoother(time, segment, slow_cutoff(time, velocity, segment))
-    return motion, _Smoothers(smoother, derived, slow)
+    return motion, _Smoothers(smoother, derived)
 
 
 def _is_replaced(data: Channels, segment: Ints, period: float, threshold: float) -> bool:
@@ -172,7 +170,9 @@ def _of_motion(
     moving = np.abs(motion.velocity_smooth) > SIGMAS * motion.velocity_noise
     position = motion.position if layout.joint_kind == "revolute" else None
     alike = load if smoothers.acceleration is None else smoothers.acceleration.smooth(load)
-    found = differing(alike, motion.acceleration, position, moving, smoothers.slow.smooth)
+    time, segment = smoothers.velocity.time, smoothers.velocity.segment
+    slow = Smoother(time, segment, slow_cutoff(time, motion.velocity, segment))
+    found = differing(alike, motion.acceleration, position, moving, slow.smooth)
     if found is None:
         return load
     if not follows_motion(found, torque, load, motion.velocity, position, moving):

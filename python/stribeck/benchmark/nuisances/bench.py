@@ -10,7 +10,7 @@ import numpy as np
 import polars as pl
 from numpy.typing import NDArray
 
-from stribeck.base.low_pass import first_order as followed
+from stribeck.base import low_pass
 from stribeck.benchmark.draws import root_mean_square
 from stribeck.benchmark.sample import Oracle, Sample
 
@@ -98,4 +98,4 @@ Nuisance: TypeAlias = Callable[[Bench, np.random.Generator], Bench]
 def first_order(values: Array, dt: float, lag: float) -> Array:
     """Low-pass filter of first order with the time constant `lag`, at rest before the start."""
     steps = np.full_like(values, dt)
-    return followed(values - values[0], steps, lag) + values[0]
+    return low_pass.first_order(values - values[0], steps, lag) + values[0]

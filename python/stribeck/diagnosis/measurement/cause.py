@@ -49,7 +49,8 @@ class MeasurementCause:
 
 def load_of(fit: Fit) -> Array:
     """Load torque [n], recorded or identified; zero where the model has none."""
-    return np.zeros_like(fit.prediction) if fit.load_torque is None else fit.load_torque
+    load = fit.load_torque
+    return np.zeros_like(fit.prediction) if load is None else load
 
 
 def neighbour(recording: Recording, values: Array, rows: int) -> Array:

@@ -5,6 +5,8 @@ The torque lacks the difference, as far as the measured motion shows it.
 
 from __future__ import annotations
 
+import numpy as np
+
 from stribeck.diagnosis.measurement.cause import Array, MeasurementCause
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
@@ -21,13 +23,19 @@ def _columns(fit: Fit) -> list[Array]:
     r = fit.recording
     if r.load_torque is None or r.acceleration is None or r.averaged:
         return []
+    name = "load torque of another acceleration"
+    if name not in r.kept:
+        r.kept[name] = _lacking(r, r.load_torque, r.acceleration)
+    lacking = r.kept[name]
+    return [lacking] if rms(lacking[r.moving]) > LEAST * rms(r.load_torque[r.moving]) else []
+
+
+def _lacking(r: Recording, load: Array, acceleration: Array) -> Array:
+    """What the torque lacks of a load torque [n]; zero where that is the motion's."""
     position = r.position if r.joint_kind == "revolute" else None
     slow = Smoother(r.time, r.segment, slow_cutoff(r.time, r.velocity, r.segment))
-    load = _as_smooth(r, r.load_torque)
-    found = differing(load, r.acceleration, position, r.moving, slow.smooth)
-    if found is None or rms(found.torque[r.moving]) < LEAST * rms(r.load_torque[r.moving]):
-        return []
-    return [-found.torque]
+    found = differing(_as_smooth(r, load), acceleration, position, r.moving, slow.smooth)
+    return np.zeros_like(load) if found is None else -found.torque
 
 
 def _as_smooth(r: Recording, load: Array) -> Array:

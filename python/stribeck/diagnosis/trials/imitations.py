@@ -23,7 +23,7 @@ from stribeck.diagnosis.measurement.table import (
     measurement_columns,
     without_effect,
 )
-from stribeck.diagnosis.trials.evidence import Difference
+from stribeck.diagnosis.trials.evidence import Difference, held_out_square
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
@@ -102,9 +102,9 @@ class _Rivals:
         """
         before, rows = self.before, self.before.rows
         own = before.weighted(before.held_out_residual[rows]) ** 2
-        along = before.weighted(trial.fit.held_out_residual[rows]) ** 2
         gain = Difference.of(own - self.together.held_out**2)
-        return gain.total / float(np.sum(own - along)) if gain.statistic > TIE else 0.0
+        fall = held_out_square(before, before) - held_out_square(trial.fit, before)
+        return gain.total / fall if gain.statistic > TIE else 0.0
 
     @property
     def largest(self) -> str:

@@ -97,8 +97,9 @@ def problem_of(fit: Fit) -> Problem:
 def _friction(fit: Fit) -> float:
     """RMS of the modelled friction: no addition is larger."""
     friction = fit.prediction - fit.recording.known_torque
-    if fit.own_load is not None:
-        friction = friction - fit.own_load
+    load = fit.own_load
+    if load is not None:
+        friction = friction - load
     return rms(friction[fit.rows])
 
 
