@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 from stribeck.base.errors import StribeckError
 from stribeck.base.pool import on_threads
@@ -18,6 +19,11 @@ from stribeck.identify.effort import QUICK
 from stribeck.identify.figures import rms
 from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
+
+#: For each fit what it is without some of its effects, as long as it is in use.
+_WITHOUT: WeakKeyDictionary[Fit, dict[tuple[tuple[str, ...], int], Fit | None]] = (
+    WeakKeyDictionary()
+)
 
 
 def brought_by(finding: Finding) -> tuple[str, ...]:
@@ -47,19 +53,24 @@ def model_without(current: Fit, finding: Finding) -> Model:
 def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
     """The model refitted without what a finding brought; None where that cannot be fitted.
 
-    An effect that has no influence without it is left out too.
+    An effect that has no influence without it is left out too. Each such model is fitted once: the
+    tests of a path's last model ask for the same ones.
     """
-    try:
-        return fit(
-            model_without(current, finding),
-            current.recording,
-            starts=1,
-            seed=seed,
-            transient=current.transient,
-            effort=QUICK,
-        )
-    except StribeckError:
-        return None
+    known = _WITHOUT.setdefault(current, {})
+    asked = (brought_by(finding), seed)
+    if asked not in known:
+        try:
+            known[asked] = fit(
+                model_without(current, finding),
+                current.recording,
+                starts=1,
+                seed=seed,
+                transient=current.transient,
+                effort=QUICK,
+            )
+        except StribeckError:
+            known[asked] = None
+    return known[asked]
 
 
 @dataclass(frozen=True)
