@@ -25,7 +25,7 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
         title: "Nonlinear viscous friction",
         what: "The lubricant is shear-thinning, churns or becomes turbulent, so friction is not \
                proportional to speed.",
-        formula: "V + nc (|v/vr|/(1 + |v/vl|))^n vr sgn v",
+        formula: "V + nc (|v/vr| (1 + vr/vl)/(1 + |v/vl|))^n vr sgn v",
         needs: "a wide range of speed",
         beyond: None,
         channels: &[],
@@ -41,8 +41,11 @@ impl<S: Real> FrictionEffect<S> for NonlinearViscous<S> {
         constants: &Constants<S::Plain>,
     ) {
         let (v, reference) = (sample.velocity, constants.reference_velocity);
-        let levelling = S::one() + S::from_plain(v.abs()) / self.nonlinear_viscous_saturation;
-        let speed = S::from_plain((v / reference).abs()) / levelling;
+        let levelling = |speed| S::one() + S::from_plain(speed) / self.nonlinear_viscous_saturation;
+        // The curve is 1 at the reference speed, or the coefficient would have no bound where it
+        // levels off.
+        let speed =
+            S::from_plain((v / reference).abs()) * levelling(reference) / levelling(v.abs());
         let curve = speed.powf(self.nonlinear_viscous_exponent);
         let friction = self.nonlinear_viscous_coefficient * curve;
         let friction = S::choose(v.at_zero(), S::zero(), friction);

@@ -11,9 +11,9 @@ parameters! {
     /// Viscous friction that falls with temperature.
     TemperatureViscous {
         /// Relative decrease of viscous friction per kelvin at the reference temperature.
-        temperature_viscous_slope: "sv" ["1/K"] 0.0 .. 0.1, start 0.01, None, Nonlinear;
+        temperature_viscous_slope: "sv" ["1/K"] 0.0 .. 0.3, start 0.01, None, Nonlinear;
         /// How fast that decrease levels off with temperature.
-        temperature_viscous_curvature: "kv" ["1/K"] 0.0 .. 0.2, start 0.01, None, Nonlinear;
+        temperature_viscous_curvature: "kv" ["1/K"] 0.0 .. 0.3, start 0.01, None, Nonlinear;
     }
 }
 

@@ -162,8 +162,8 @@ class Diagnosis(Plotted):
         Effects that predict better, but not by more than chance may: what else is missing may hide
         them; not asked where `brief` finds some.
     explained
-        Effects that pass, but add nothing where those of the model may take any smooth form, or
-        whose own form is not that of what is missing.
+        Effects that pass, but add nothing where those of the model may take any smooth form, whose
+        own form is not that of what is missing, or whose size is at its bound.
     pair
         Two effects that predict only together; asked where structure remains and nothing is found.
     smallest_visible

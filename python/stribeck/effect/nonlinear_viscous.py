@@ -42,24 +42,39 @@ def _constants(recording: Recording) -> dict[str, float]:
 def _curve(after: Identified, speed: Array | float) -> Array:
     """The effect over its coefficient and the reference velocity, at speeds of any shape."""
     m = after.model
-    ratio = speed / m.constants["reference_velocity"]
-    levelled = ratio / (1.0 + speed / m.value("nonlinear_viscous_saturation"))
+    reference, saturation = (
+        m.constants["reference_velocity"],
+        m.value("nonlinear_viscous_saturation"),
+    )
+    levelled = speed / reference * (1.0 + reference / saturation) / (1.0 + speed / saturation)
     return np.asarray(levelled ** m.value("nonlinear_viscous_exponent"))
 
 
 def _out_of_reach(after: Identified) -> str | None:
     """Why it is no more than dry friction that is smaller at the slowest speeds."""
     speed = np.abs(after.recording.velocity[after.rows])
-    curve = _curve(after, speed)
-    dry_and_viscous = np.column_stack([np.ones_like(speed), speed])
-    left = (curve - dry_and_viscous @ linear.least_norm(dry_and_viscous, curve)) ** 2
     slow = float(np.quantile(speed, SLOWEST))
-    if float(left[speed <= slow].sum()) < MOST * float(left.sum()):
+    fast = speed > slow
+    bend = _bend(after, speed)
+    if float(np.sum(bend[~fast] ** 2)) < MOST * float(np.sum(bend**2)):
+        return None
+    # A curve that bends by more than the error at the other speeds too shows there.
+    error = (after.recording.torque - after.prediction)[after.rows][fast]
+    if np.sum(_bend(after, speed[fast]) ** 2) > np.sum(error**2):
         return None
     return (
         f"it changes friction below {number(slow)} {after.model.position_unit}/s alone, the "
         f"slowest {100 * SLOWEST:.0f} % of the samples, and is dry friction above"
     )
+
+
+def _bend(after: Identified, speed: Array) -> Array:
+    """The torque of the effect at speeds [m] that no dry and viscous friction has."""
+    m = after.model
+    torque = m.value("nonlinear_viscous_coefficient") * _curve(after, speed)
+    torque *= m.constants["reference_velocity"]
+    dry_and_viscous = np.column_stack([np.ones_like(speed), speed])
+    return torque - dry_and_viscous @ linear.least_norm(dry_and_viscous, torque)
 
 
 def _where(before: Identified, after: Identified) -> str:

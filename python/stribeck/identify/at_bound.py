@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from stribeck.base.errors import option
 from stribeck.identify.estimates import Estimate
 
-__all__ = ["at_bound_notes"]
+__all__ = ["at_bound_notes", "wider"]
 
 #: The factor by which a wider bound is proposed.
 WIDER = 5.0
@@ -26,21 +26,32 @@ def at_bound_notes(estimates: Iterable[Estimate]) -> tuple[str, ...]:
     return tuple(_sentence(e) for e in estimates if e.at_bound)
 
 
+def wider(e: Estimate) -> str:
+    """What widens the bound that a parameter is at, such as ``widen it with ...``."""
+    room = e.upper - e.lower
+    if _at_upper(e):
+        low, high = e.lower, _wider(e.upper, room)
+    else:
+        low, high = -_wider(-e.lower, room), e.upper
+    return f"widen it with {option('bounds', f'{e.name}={_end(low)}:{_end(high)}')}"
+
+
 def _sentence(e: Estimate) -> str:
-    at_upper = e.upper - e.value < e.value - e.lower
+    at_upper = _at_upper(e)
     end = e.upper if at_upper else e.lower
     unit = "" if e.unit == "1" else f" {e.unit}"
     where = f"{e.name} is at its {'upper' if at_upper else 'lower'} bound {end:.4g}{unit}"
-    room = e.upper - e.lower
-    low, high = (e.lower, _wider(e.upper, room)) if at_upper else (-_wider(-e.lower, room), e.upper)
-    wider = f"widen it with {option('bounds', f'{e.name}={_end(low)}:{_end(high)}')}"
     if end == 0.0:
         sign = "positive" if at_upper else "negative"
         return (
             f"{where}: fix it there with {option('fix', f'{e.name}=0')}, or, if it may be {sign}, "
-            f"{wider}"
+            f"{wider(e)}"
         )
-    return f"{where}: {wider}, or the recording does not determine it"
+    return f"{where}: {wider(e)}, or the recording does not determine it"
+
+
+def _at_upper(e: Estimate) -> bool:
+    return e.upper - e.value < e.value - e.lower
 
 
 def _wider(upper: float, room: float) -> float:

@@ -34,3 +34,10 @@ def test_friction_that_rises_faster_than_the_speed_is_viscous(tmp_path: Path) ->
     v = motion()[2]
     fit = sb.fit("coulomb+nonlinear_viscous", record(tmp_path, joint(0.4 * v * np.abs(v))))
     assert RULE(fit) is None
+
+
+def test_friction_that_also_bends_above_the_slowest_speeds_is_viscous(tmp_path: Path) -> None:
+    """Thermally activated slip (Eyring) rises with the logarithm of the speed, over decades."""
+    v = motion()[2]
+    frame = joint(0.3 * np.arcsinh(v / 0.001))
+    assert RULE(sb.fit("coulomb+nonlinear_viscous", record(tmp_path, frame), starts=2)) is None

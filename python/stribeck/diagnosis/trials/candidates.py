@@ -23,6 +23,7 @@ from stribeck.diagnosis.trials.trial import (
     is_promising,
     is_uncertain,
     passes,
+    passes_at_a_bound,
     passes_in_one_block,
     passes_outside_the_band,
     simpler_substitute,
@@ -88,6 +89,8 @@ class Tested:
         Trials that predict better in most blocks, but not by more than chance may.
     explained
         Trials that pass, but add nothing where the effects of the model may take any smooth form.
+    at_bound
+        Trials that would pass, but whose size is at its bound.
     screenings
         Each effect that was screened.
     """
@@ -97,6 +100,7 @@ class Tested:
     outside_the_band: list[Trial]
     uncertain: list[Trial]
     explained: list[Trial]
+    at_bound: list[Trial]
     screenings: Mapping[str, Screened]
 
     @property
@@ -147,8 +151,9 @@ def tested(
     in_one_block = [t for t in first.trials if passes_in_one_block(t, tried, least)]
     outside = [t for t in first.trials if passes_outside_the_band(t, tried, least)]
     uncertain = [t for t in first.trials if is_uncertain(t, tried, least)]
+    at_bound = [t for t in first.trials if passes_at_a_bound(t, tried, least)]
     passing = dry_friction_first(good, fitted.model)
-    return Tested(passing, in_one_block, outside, uncertain, explained, first.screenings)
+    return Tested(passing, in_one_block, outside, uncertain, explained, at_bound, first.screenings)
 
 
 def _explained(fitted: Fit, good: list[Trial], tried: int, least: float) -> list[Trial]:

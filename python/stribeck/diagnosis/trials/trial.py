@@ -17,11 +17,14 @@ from stribeck.diagnosis.trials.evidence import Evidence, difference, evidence, h
 from stribeck.diagnosis.trials.screening import STARTS, Screened, extended_model, screened
 from stribeck.diagnosis.visibility.model_space import MOST_ROWS
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
+from stribeck.effect.base import number
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
+from stribeck.identify.at_bound import wider
 from stribeck.identify.choices import Choices
 from stribeck.identify.effort import FROM_NEARBY, QUICK, THOROUGH
+from stribeck.identify.estimates import Estimate
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import catalog
 from stribeck.models.formula_law import effect_name
@@ -63,18 +66,29 @@ class Trial:
         return float(np.sum(np.log(np.maximum(1.0 - falls, 1e-12))))
 
     @property
-    def is_implausible(self) -> bool:
-        """Whether the effect's size is at its bound.
-
-        The first parameter is the size (a height, a slope, a stiffness, a delay). At its bound the
-        fit uses the effect as a proxy for something else.
-        """
+    def size(self) -> Estimate | None:
+        """The size of the effect, its first parameter: a height, a slope, a stiffness, a delay."""
         own = self.fit.model.formula(self.effect)
         if own is None:
-            size = catalog()["effects"][self.effect]["parameters"][0]["name"]
+            name = catalog()["effects"][self.effect]["parameters"][0]["name"]
         else:
-            size = own.names[0]
-        return size in self.fit.estimates and self.fit.estimates[size].at_bound
+            name = own.names[0]
+        return self.fit.estimates.get(name)
+
+    @property
+    def is_implausible(self) -> bool:
+        """Whether the effect's size is at its bound: the fit uses it as a proxy for another."""
+        return self.size is not None and self.size.at_bound
+
+    @property
+    def at_bound(self) -> str:
+        """Why an effect whose size is at its bound is not claimed."""
+        assert self.size is not None
+        unit = "" if self.size.unit == "1" else f" {self.size.unit}"
+        return (
+            f"its {self.size.name} would be at its bound {number(self.size.value)}{unit}, as that "
+            f"of an effect which imitates another; if it may lie beyond, {wider(self.size)}"
+        )
 
 
 def add_effect(
@@ -267,6 +281,13 @@ def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
     return not trial.evidence.everywhere and _passes_somewhere(trial, tried, least)
 
 
+def passes_at_a_bound(trial: Trial, tried: int, least: float) -> bool:
+    """Whether a trial would pass, but its size is at its bound."""
+    e = trial.evidence
+    gains = e.everywhere and e.fall_in_band > 0
+    return trial.is_implausible and gains and _is_more_than_chance(trial, tried, least)
+
+
 def passes_outside_the_band(trial: Trial, tried: int, least: float) -> bool:
     """Whether a trial would pass, but gains only at frequencies above those of the motion."""
     e = trial.evidence
@@ -285,8 +306,12 @@ def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
 
 
 def _is_significant(trial: Trial, tried: int, least: float) -> bool:
+    return _is_more_than_chance(trial, tried, least) and not trial.is_implausible
+
+
+def _is_more_than_chance(trial: Trial, tried: int, least: float) -> bool:
     e = trial.evidence
-    return e.fall >= least and e.p_value * tried <= SIGNIFICANCE and not trial.is_implausible
+    return e.fall >= least and e.p_value * tried <= SIGNIFICANCE
 
 
 def falls_on_all_samples(before: Fit, trial: Trial) -> bool:
