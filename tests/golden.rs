@@ -195,7 +195,7 @@ fn all_static_effects_combined() {
         0.02, 0.03, // temperature of the viscous part
         0.8, 1.1, -0.6, // inertia, gravity
     ];
-    close(at("coulomb", &effects, &values, &sample), -4.839884568237191, 1e-14);
+    close(at("coulomb", &effects, &values, &sample), -4.970168779576607, 1e-14);
 }
 
 /// Viscous and Coulomb friction with `effects` at one sample under load, without cancellation.

@@ -224,6 +224,8 @@ class Effect:
         load torque [n].
     shown_beside
         An effect without which it has no influence, to show it with.
+    steady
+        Effects that together are this one where nothing changes with time.
     """
 
     id: str
@@ -250,6 +252,7 @@ class Effect:
     in_motion: InMotion = "acts"
     cannot_hide: Callable[[Model, Array], str | None] = _nothing
     shown_beside: str | None = None
+    steady: tuple[str, ...] = ()
 
 
 def number(value: float, digits: int = 3) -> str:

@@ -71,4 +71,5 @@ EFFECT = Effect(
         "an amplifier warms up once: begin a recording when it is warm, or record until it is"
     ),
     in_motion="measurement",
+    steady=("offset", "gain"),
 )

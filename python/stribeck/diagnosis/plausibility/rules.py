@@ -17,9 +17,11 @@ from stribeck.diagnosis.plausibility.negative import negative_friction, negative
 from stribeck.diagnosis.plausibility.noise_of_load import noise_of_load
 from stribeck.diagnosis.plausibility.other_part import other_part_changes
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
+from stribeck.diagnosis.plausibility.steady import steady
 from stribeck.diagnosis.plausibility.too_large import too_large
 from stribeck.diagnosis.plausibility.uneven import uneven
 from stribeck.diagnosis.plausibility.unresolved import out_of_reach, unresolved
+from stribeck.diagnosis.plausibility.worsened import worsened
 
 #: A rule: the reason why a claim breaks it, or None.
 Rule = Callable[[Claim], str | None]
@@ -33,6 +35,8 @@ IMPOSSIBLE: tuple[Rule, ...] = (
     unresolved,
     out_of_reach,
     other_part_changes,
+    steady,
+    worsened,
     noise_of_load,
 )
 #: Nor is one with which another effect of the model breaks one of these.

@@ -17,6 +17,8 @@ from stribeck.models.catalog import effect_row
 #: Samples in each move, for each parameter of an effect, that must carry it, unless they are so
 #: large a share of the move.
 FEWEST, LARGE = 3, 0.01
+#: Samples of a recording that must carry an effect, unless they are so large a share of it.
+FEWEST_IN_ALL, SHARE_IN_ALL = 30, 0.1
 #: Share of its gain that an effect must keep with the usual value of a shape parameter that ends at
 #: a bound.
 KEPT = 0.5
@@ -25,7 +27,7 @@ STARTS = 3
 
 
 def few_samples(claim: Claim) -> str | None:
-    """Why too few samples of each move carry the effect; None where enough do.
+    """Why too few samples, or too few of each move, carry the effect; None where enough do.
 
     Few samples show that the torque jumps there, and not how it changes.
     """
@@ -35,7 +37,13 @@ def few_samples(claim: Claim) -> str | None:
     if carried.events == 0:
         return None
     move = move_of(claim)
-    each = carried.share * move.size / carried.events
+    carry = carried.share * move.size
+    if carry < min(FEWEST_IN_ALL, SHARE_IN_ALL * move.size):
+        return (
+            f"only {number(carry)} of {move.size} samples carry 90 % of what it gains: too few to "
+            f"tell it from another cause that acts there"
+        )
+    each = carry / carried.events
     length = move.size / max(np.unique(move).size, 1)
     parameters = len(claim.after.model.names) - len(claim.before.model.names)
     # An effect of one parameter, such as a delay, claims no shape.
