@@ -29,7 +29,7 @@ impl<S: Real> FrictionEffect<S> for Spring<S> {
         formula: "tf + k1 u + k2 (3 u^2 - 1)/2 + k3 (5 u^3 - 3 u)/2, \
                   u = 2 (q - start)/length - 1",
         needs: "a range of position, passed in both directions",
-        beyond: None,
+        beyond: Some("offset"),
         channels: &[Channel::Position],
         constants: &["position_start", "position_length"],
         parameters: Self::TABLE,

@@ -18,7 +18,7 @@ from stribeck.effect.base import (
     number,
 )
 from stribeck.effect.facts import RecordingFacts
-from stribeck.effect.hardening import detailed_resonance
+from stribeck.effect.hardening import LARGE, detailed_resonance
 from stribeck.effect.resonance import NONE, resonances
 from stribeck.models.model import Model
 from stribeck.models.parameter import joint_unit
@@ -120,13 +120,17 @@ def _beyond_motor(after: Identified, resonance: Resonance) -> str:
 
 
 def _hardening(after: Identified, resonance: Resonance) -> str:
-    """How a spring hardens, as a clause."""
-    if not resonance.hardening > 0.0:
+    """How much a spring hardens under the load torque, as a clause."""
+    load = after.recording.load_torque
+    if not resonance.hardening > 0.0 or load is None:
         return ""
-    linear, unit = number(resonance.hardening), after.model.load_unit
+    size = float(np.quantile(np.abs(load[after.rows]), LARGE))
+    # The root of y + y^3/h^2 = size.
+    third = np.arcsinh(1.5 * np.sqrt(3.0) * size / resonance.hardening) / 3.0
+    twist = 2.0 / np.sqrt(3.0) * resonance.hardening * float(np.sinh(third))
     return (
-        f"; its spring hardens: where a linear one carries {linear} {unit}, it carries "
-        f"{number(2.0 * resonance.hardening)} {unit}"
+        f"; its spring hardens: under {number(size)} {after.model.load_unit} it twists "
+        f"{number(100.0 * (1.0 - twist / size), 2)} % less than a linear one"
     )
 
 

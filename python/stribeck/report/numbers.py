@@ -124,7 +124,7 @@ def confidence_words(confidence: float) -> str:
         0.99: "practically certain",
         0.95: "very likely",
         0.8: "likely",
-        0.55: "more likely than not",
+        0.55: "probable",
         0.45: "as likely as not",
         0.05: "possible",
     }
