@@ -42,7 +42,7 @@ STARTS = tuple(np.array([0.0, np.log(0.1), np.log(hard), 0.2]) for hard in (0.5,
 #: the ranges, and least change of the logarithm. Further rounds follow from the best end, if it
 #: explains so many times what the linear spring does, until one gains less than this share.
 FIRST_EVALUATIONS, EVALUATIONS, STEP, TOLERANCE = 80, 250, 0.1, 1e-4
-MOST_ROUNDS, ON_THE_WAY, BETTER = 4, 1.05, 0.01
+MOST_ROUNDS, ON_THE_WAY, BETTER = 4, 1.05, 0.003
 #: Quantile of the load torque that counts as its size.
 LARGE = 0.95
 #: Where the resonance of the last residual is kept: its parameters before the residual.
