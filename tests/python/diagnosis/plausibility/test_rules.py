@@ -17,9 +17,11 @@ from stribeck.diagnosis.plausibility.few_events import few_events, one_event
 from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
 from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, weak
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
+from stribeck.diagnosis.plausibility.steady import steady
 from stribeck.diagnosis.plausibility.too_large import too_large
 from stribeck.diagnosis.plausibility.uneven import uneven
 from stribeck.diagnosis.plausibility.unresolved import out_of_reach, unresolved
+from stribeck.diagnosis.plausibility.worsened import worsened
 from stribeck.identify.problem import Problem
 from synthetic import Array, joint, motion, record
 
@@ -216,6 +218,47 @@ def test_single_samples_of_each_move_show_no_shape(tmp_path: Path) -> None:
     reason = few_samples(claim("peak", lambda v: 8.0 * (np.abs(v) < 0.003)))
     assert reason is not None and "samples a move carry" in reason
     assert few_samples(claim("curve", lambda v: 1.5 * np.exp(-np.abs(v) / 0.15))) is None
+
+
+def test_an_effect_of_few_samples(tmp_path: Path, offset: Claim) -> None:
+    """Twenty large errors of a recording of 20 000 samples, in as many moves, show no delay."""
+    v = motion(20000, 1000.0)[2]
+    turns = np.flatnonzero(np.diff(np.sign(v)))[:20]
+    extra = np.zeros(v.size)
+    extra[turns + 1] = -6.0 * np.sign(v[turns + 1])
+    recording = record(tmp_path, joint(extra, rows=v.size, rate=1000.0))
+    before = sb.fit("coulomb", recording, starts=1)
+    after = replace(before, prediction=before.prediction + extra, held_out=before.held_out + extra)
+    claim = Claim("delay", before, after, 0.01)
+    reason = few_samples(claim)
+    assert reason is not None and f"of {before.rows.size} samples carry 90 %" in reason
+    assert few_samples(replace(offset, effect="delay")) is None
+
+
+def test_an_effect_that_few_samples_decide(offset: Claim) -> None:
+    """It takes 5 N m from one sample of a hundred, and adds 0.5 N m to the error of four."""
+    rows, drawn = offset.rows, np.random.default_rng(1).random(offset.rows.size)
+    along = offset.after.held_out.copy()
+    away = -0.5 * np.sign(offset.after.held_out_residual[rows])
+    along[rows] += np.where((drawn > 0.01) & (drawn < 0.05), away, 0.0)
+    without = offset.after.held_out.copy()
+    without[rows] -= np.where(drawn < 0.01, 5.0, 0.0)
+    before = replace(offset.before, prediction=without, held_out=without)
+    after = replace(offset.after, prediction=along, held_out=along)
+    squares = [np.sum(fit.held_out_residual[rows] ** 2) for fit in (before, after)]
+    assert squares[1] < 0.5 * squares[0]
+    reason = worsened(Claim("offset", before, after, 0.01))
+    assert reason is not None and reason.startswith("of the samples that it changes by more than")
+    assert worsened(offset) is None
+
+
+def test_a_gain_and_an_offset_that_do_not_change_are_no_warm_up(tmp_path: Path) -> None:
+    frame = joint()
+    torque, t = frame["torque"].to_numpy(), frame["time"].to_numpy()
+    reason = steady(made(tmp_path, 0.05 * torque + 0.4, "warm_up", "steady"))
+    assert reason == "offset and gain that do not change with time explain as much"
+    settles = np.exp(-3.0 * t / t[-1])
+    assert steady(made(tmp_path, (0.1 * torque + 0.4) * settles, "warm_up", "settles")) is None
 
 
 def test_a_shape_that_is_needed_at_its_bound(tmp_path: Path) -> None:
