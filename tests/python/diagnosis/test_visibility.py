@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 #: Sizes of planted effects, as shares of the smallest visible one.
 SMALL, LARGE = 0.5, 2.0
 #: What is looked for only where the simpler effect that it goes beyond is there.
-BEYOND = {"quadrant", "frictional_lag", "thermometer_lag"}
+BEYOND = {"quadrant", "frictional_lag", "thermometer_lag", "spring"}
 
 
 def seen(fit: sb.Fit, *effects: str) -> Visibility:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Generator, Iterator, Sequence
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from stribeck.base.errors import FitError
@@ -58,12 +58,18 @@ class Search:
         if trials:
             path = self._beyond(path, trials)
             yield path
-        if (shorter := self._without_imitations(path)) is not None:
+        # Imitations once: without them more remains, beside which another effect explains less.
+        findings = [step.finding for step in path.steps]
+        shorter = self._without(
+            path, {**self._other_forms(path), **dict.fromkeys(imitations(findings), REASON)}
+        )
+        while shorter is not None:
             shorter = self._needed(shorter)
             yield shorter
             path = yield from self._grown(self._asked(shorter))
             # What an imitation has hidden beside it may be two effects that show only together.
             path = self._beyond(path, trials_of(path.last))
+            shorter = self._without(path, self._other_forms(path))
         path = settled(path, self.least_fall, self.seed)
         last = path.last if path.last.findings else with_visibility(path.last)
         said = replace(last, demoted=(*path.demoted, *last.demoted))
@@ -207,16 +213,18 @@ class Search:
         path = yield from self._grown(self._asked(path))
         yield path
 
-    def _without_imitations(self, path: ImprovementPath) -> ImprovementPath | None:
-        """The path without effects that may imitate another cause, or None where there are none.
-
-        Once: without them more remains, beside which another effect would explain less.
-        """
-        shorter = None
+    def _other_forms(self, path: ImprovementPath) -> dict[str, str]:
+        """The effects of a path that a free function of the speed explains better, and why."""
         findings = [step.finding for step in path.steps]
-        reasons = dict.fromkeys(imitations(findings), REASON)
         form = of_other_form(findings, path.current, path.last.unexplained, self.seed)
-        for effect, reason in {**dict.fromkeys(form, OTHER_FORM), **reasons}.items():
+        return dict.fromkeys(form, OTHER_FORM)
+
+    def _without(
+        self, path: ImprovementPath, doubtful: Mapping[str, str]
+    ) -> ImprovementPath | None:
+        """The path without effects that may be another cause, and why; None where none leaves."""
+        shorter = None
+        for effect, reason in doubtful.items():
             self.progress(f"{effect} is doubtful: {reason}")
             try:
                 path = shorter = path.demoting(effect, reason, self.seed)

@@ -36,8 +36,8 @@ IMPOSSIBLE: tuple[Rule, ...] = (
     out_of_reach,
     other_part_changes,
     steady,
-    worsened,
     noise_of_load,
+    worsened,
 )
 #: Nor is one with which another effect of the model breaks one of these.
 OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved, out_of_reach)
