@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.effect.constants import effect_constants
+from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import simpler_effect
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
@@ -14,9 +15,14 @@ Array = NDArray[np.float64]
 
 
 def missing_simpler_effect(effect: str, model: Model) -> str | None:
-    """The simpler effect that `effect` contains and `model` lacks, if there is one."""
+    """The simpler effect that `effect` contains and `model` lacks, if there is one.
+
+    A model with an effect that contains the simpler one does not lack it.
+    """
     simpler = simpler_effect(effect)
-    return None if simpler is None or model.has(simpler) else simpler
+    if simpler is None or model.has(simpler) or model.has(of_catalog(simpler).part_of or simpler):
+        return None
+    return simpler
 
 
 def extended_models(
