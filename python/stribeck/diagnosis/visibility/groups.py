@@ -13,6 +13,7 @@ from stribeck.diagnosis.visibility.model_space import ModelSpace
 from stribeck.diagnosis.visibility.result import Group
 from stribeck.diagnosis.visibility.smallest import VisibleEffect
 from stribeck.diagnosis.visibility.subspace import orthonormal, sine_to_span
+from stribeck.effect.registry import of_catalog
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import simpler_effect
 
@@ -71,7 +72,9 @@ def indistinguishable(
 
 
 def _contains(effect: str, other: str) -> bool:
-    return simpler_effect(effect) == other
+    """Whether an effect goes beyond another, or beyond what another contains as well."""
+    simpler = simpler_effect(effect)
+    return simpler is not None and other in (simpler, of_catalog(simpler).part_of)
 
 
 def cliques(alike: dict[str, set[str]]) -> list[frozenset[str]]:
