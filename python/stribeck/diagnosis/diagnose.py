@@ -164,7 +164,7 @@ def _findings(
         explained=(
             *(NotClaimed(t.effect, FORM) for t in proxies),
             *(NotClaimed(t.effect, SHAPE) for t in found.explained),
-            *(NotClaimed(t.effect, t.at_bound) for t in found.at_bound),
+            *(NotClaimed(t.effect, t.bound_reason) for t in found.at_bound),
         ),
         tried=Tried(offered.possible, tried, least_fall),
     )

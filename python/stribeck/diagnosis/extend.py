@@ -14,15 +14,16 @@ from stribeck.recording.recording import Recording
 Array = NDArray[np.float64]
 
 
-def missing_simpler_effect(effect: str, model: Model) -> str | None:
-    """The simpler effect that `effect` contains and `model` lacks, if there is one.
+def holds(model: Model, effect: str) -> bool:
+    """Whether a model has an effect, or another one that contains it."""
+    whole = of_catalog(effect).part_of
+    return model.has(effect) or (whole is not None and model.has(whole))
 
-    A model with an effect that contains the simpler one does not lack it.
-    """
+
+def missing_simpler_effect(effect: str, model: Model) -> str | None:
+    """The simpler effect that `effect` contains and `model` lacks, if there is one."""
     simpler = simpler_effect(effect)
-    if simpler is None or model.has(simpler) or model.has(of_catalog(simpler).part_of or simpler):
-        return None
-    return simpler
+    return None if simpler is None or holds(model, simpler) else simpler
 
 
 def extended_models(

@@ -81,7 +81,7 @@ class Trial:
         return self.size is not None and self.size.at_bound
 
     @property
-    def at_bound(self) -> str:
+    def bound_reason(self) -> str:
         """Why an effect whose size is at its bound is not claimed."""
         assert self.size is not None
         unit = "" if self.size.unit == "1" else f" {self.size.unit}"

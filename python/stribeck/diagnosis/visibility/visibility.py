@@ -9,6 +9,7 @@ import numpy as np
 
 from stribeck.base.errors import StribeckError
 from stribeck.base.pool import on_threads
+from stribeck.diagnosis.extend import holds
 from stribeck.diagnosis.flexible_shape import flexible_columns
 from stribeck.diagnosis.testable import Untestable
 from stribeck.diagnosis.visibility.added_effect import AddedEffect
@@ -75,11 +76,7 @@ def visibility(
     for one in effects:
         if one.smallest <= largest:
             visible.append(one)
-        elif (
-            one.effect not in found
-            and one.is_tested(found)
-            and not fit.model.has(of_catalog(one.effect).part_of or one.effect)
-        ):
+        elif one.effect not in found and one.is_tested(found) and not holds(fit.model, one.effect):
             hidden.append(_hidden(one, model, unit))
     smallest = sorted(
         (s.result(unit) for s in visible if s.effect not in found and s.is_tested(found)),
