@@ -86,8 +86,8 @@ class Trial:
         assert self.size is not None
         unit = "" if self.size.unit == "1" else f" {self.size.unit}"
         return (
-            f"its {self.size.name} would be at its bound {number(self.size.value)}{unit}, as that "
-            f"of an effect which imitates another; if it may lie beyond, {wider(self.size)}"
+            f"its {self.size.name} would be at its bound {number(self.size.value)}{unit}: the "
+            f"effect may imitate another cause; if a value beyond is possible, {wider(self.size)}"
         )
 
 
