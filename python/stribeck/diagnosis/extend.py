@@ -26,6 +26,11 @@ def missing_simpler_effect(effect: str, model: Model) -> str | None:
     return None if simpler is None or holds(model, simpler) else simpler
 
 
+def needs_simpler_effect(effect: str) -> bool:
+    """Whether an effect has no meaning without the simpler one that it contains."""
+    return simpler_effect(effect) is not None and not of_catalog(effect).acts_alone
+
+
 def extended_models(
     model: Model, effect: str, recording: Recording, load: Array | None, residual: Array | None
 ) -> tuple[Model, ...]:

@@ -214,6 +214,8 @@ class Effect:
         missing, or its torque follows theirs.
     part_of
         Another effect that contains this one on any motion.
+    acts_alone
+        Whether it also acts without the simpler effect of the catalog that it contains.
     design_note
         What no designed motion can do for the effect, as a sentence without a full stop.
     in_motion
@@ -248,6 +250,7 @@ class Effect:
     out_of_reach: Callable[[Identified], str | None] = _nothing
     alike: Callable[[Identified, Identified], tuple[str, ...]] = _no_names
     part_of: str | None = None
+    acts_alone: bool = False
     design_note: str = ""
     in_motion: InMotion = "acts"
     cannot_hide: Callable[[Model, Array], str | None] = _nothing

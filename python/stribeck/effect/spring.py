@@ -61,4 +61,5 @@ EFFECT = Effect(
     generated_constants=generated_ends,
     flexible_shape=_flexible_shape,
     alike=_alike,
+    acts_alone=True,
 )

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.diagnosis.trials import candidates
 from synthetic import joint, motion, record
 
 
@@ -27,3 +28,13 @@ def test_an_offset_is_not_taken_for_a_spring(tmp_path: Path) -> None:
     found = sb.improve("coulomb", record(tmp_path, joint(0.5)), starts=1)
     assert [step.finding.effect for step in found.steps] == ["offset"]
     assert "spring" not in found.steps[0].finding.indistinguishable_from
+
+
+def test_a_weight_and_an_offset_do_not_replace_a_spring(tmp_path: Path) -> None:
+    """Its torque over the stroke is like a weight's, but not the same."""
+    q = motion()[1]
+    u = q / np.abs(q).max()
+    spring = 0.02 * u + 0.005 * u**3
+    fitted = sb.fit("coulomb", record(tmp_path, joint(spring)), starts=1)
+    tested = candidates.tested(fitted, ["offset", "gravity", "spring"], 0.01, 0)
+    assert {trial.effect for trial in tested.passing} == {"gravity", "spring"}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from stribeck.base.pool import on_threads
-from stribeck.diagnosis.extend import missing_simpler_effect
+from stribeck.diagnosis.extend import missing_simpler_effect, needs_simpler_effect
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.diagnosis.trials.dry_friction import (
     dry_friction_first,
@@ -120,7 +120,8 @@ def tested(
 
     An effect that contains a simpler one is tried beside it. It must add to that, and pass together
     with it, which need not pass alone. If another effect does as well there with fewer parameters,
-    the pair replaces it: the larger of the two comes first.
+    the pair replaces it: the larger of the two comes first. An effect that does not need the
+    simpler one is compared with others later, as those are with each other.
     """
     needs = {effect: missing_simpler_effect(effect, fitted.model) for effect in possible}
     alone = [effect for effect, needed in needs.items() if needed is None]
@@ -135,8 +136,10 @@ def tested(
         beyond = try_beyond(simpler, effect, fitted, least, seed=seed)
         if beyond is None or not passes(beyond[0], tried, least):
             continue
-        others = [t for t in good if t is not simpler]
-        instead = simpler_substitute(beyond[1], simpler, others, alone, fitted, least, seed)
+        instead = None
+        if needs_simpler_effect(effect):
+            others = [t for t in good if t is not simpler]
+            instead = simpler_substitute(beyond[1], simpler, others, alone, fitted, least, seed)
         if instead is not None:
             pairs.append(_Pair(beyond[1], min(instead, key=lambda trial: trial.rank)))
         elif passes(beyond[1], tried, least):
