@@ -13,6 +13,7 @@ from stribeck.fitting.result import Fit
 from stribeck.fitting.solve import Solution
 from stribeck.fitting.stated import Under
 from stribeck.identify.at_bound import at_bound_notes
+from stribeck.identify.beside_rest import delayed_rest
 from stribeck.identify.effort import Effort
 from stribeck.identify.figures import relative_residual
 from stribeck.identify.held_out import Refit
@@ -90,7 +91,7 @@ def finish(
 def _notes(
     made: Model, recording: Recording, marked: NDArray[np.bool_], lower: Array, upper: Array
 ) -> tuple[str, ...]:
-    """What a reader has to know: transients, the rigid body, fixed parameters."""
+    """What a reader has to know: samples left out, the rigid body, fixed parameters."""
     notes = left_out_notes(recording, marked)
     transient = marked & ~uncertain_direction(recording)
     if transient.any():
@@ -98,6 +99,12 @@ def _notes(
         notes += (
             f"no friction model explains the motion at {spans} (an approach move or an "
             f"abrupt stop?): scored, but excluded from the fit",
+        )
+    doubtful = int(np.count_nonzero(delayed_rest(made, recording) & ~marked))
+    if doubtful:
+        notes += (
+            f"with a delay, the friction of {doubtful} samples beside a rest may be that of the "
+            f"rest, which no model predicts: scored, but excluded from the fit",
         )
     if made.rigid_body:
         notes += (f"identified together with the friction: {' and '.join(made.rigid_body)}",)

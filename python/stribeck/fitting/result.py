@@ -19,6 +19,7 @@ from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.exogenous import tested
 from stribeck.fitting.predict import predicted
 from stribeck.fitting.stated import PLAIN, HeldConstraint, Under
+from stribeck.identify.beside_rest import delayed_rest
 from stribeck.identify.confounded import Combination
 from stribeck.identify.ends import StartsReport
 from stribeck.identify.estimates import Errors, Estimate
@@ -217,9 +218,15 @@ class Fit(Plotted):
         return values if root is None else values * root[self.rows]
 
     @property
+    def left_out(self) -> NDArray[np.bool_]:
+        """Samples that the parameters were not fitted to although they move, bool [n]."""
+        moving = self.recording.moving
+        return moving & (self.transient | delayed_rest(self.model, self.recording))
+
+    @property
     def rows(self) -> NDArray[np.intp]:
         """Indices of the samples that the parameters were fitted to."""
-        return np.flatnonzero(self.recording.moving & ~self.transient)
+        return np.flatnonzero(self.recording.moving & ~self.left_out)
 
     @property
     def correlation(self) -> ParameterMatrix | None:

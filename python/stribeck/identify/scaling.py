@@ -29,6 +29,9 @@ from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
+#: Least sample period of the scale in s: at a higher rate, a filter delays by more samples.
+LEAST_PERIOD = 0.005
+
 
 def scale_values(recording: Recording) -> dict[str, float]:
     """The size of each scale of the catalog on this recording, in SI units."""
@@ -53,7 +56,7 @@ def scale_values(recording: Recording) -> dict[str, float]:
         "torque_rate": torque * speed / position,
         "time": speed / acceleration,
         "square_time": (speed / acceleration) ** 2,
-        "sample_period": s["sample_period"] or 1.0,
+        "sample_period": max(s["sample_period"], LEAST_PERIOD),
         "duration": s["duration"] or 1.0,
         **drive_scales(recording),
     }
