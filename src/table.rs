@@ -108,7 +108,7 @@ pub enum Scale {
     Time,
     /// The square of `Time`.
     SquareTime,
-    /// The median time step, or 5 ms if that is shorter.
+    /// The median time step, or 1/120 s if that is shorter.
     SamplePeriod,
     /// The time from the first to the last sample of a run.
     Duration,

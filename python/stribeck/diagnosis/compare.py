@@ -203,7 +203,7 @@ def _informations(fits: Sequence[Fit]) -> list[Information | None]:
     The effective number of samples is that of the residual with the least sum of squares: it is the
     closest to noise.
     """
-    rows = np.logical_and.reduce([f.recording.moving & ~f.left_out for f in fits])
+    rows = np.logical_and.reduce([f.recording.moving & ~f.transient for f in fits])
     residuals = [weighted(f.recording, f.residual, np.flatnonzero(rows)) for f in fits]
     least = min(residuals, key=lambda residual: float(residual @ residual))
     effective = effective_samples(least)

@@ -13,13 +13,11 @@ from stribeck.fitting.result import Fit
 from stribeck.fitting.solve import Solution
 from stribeck.fitting.stated import Under
 from stribeck.identify.at_bound import at_bound_notes
-from stribeck.identify.beside_rest import delayed_rest
 from stribeck.identify.effort import Effort
 from stribeck.identify.figures import relative_residual
 from stribeck.identify.held_out import Refit
+from stribeck.identify.left_out import left_out_notes
 from stribeck.identify.problem import Problem
-from stribeck.identify.transients import stretches
-from stribeck.identify.uncertain_direction import left_out_notes, uncertain_direction
 from stribeck.identify.uncertainty import Uncertainty, identified
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
@@ -93,19 +91,6 @@ def _notes(
 ) -> tuple[str, ...]:
     """What a reader has to know: samples left out, the rigid body, fixed parameters."""
     notes = left_out_notes(recording, marked)
-    transient = marked & ~uncertain_direction(recording)
-    if transient.any():
-        spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in stretches(recording, transient))
-        notes += (
-            f"no friction model explains the motion at {spans} (an approach move or an "
-            f"abrupt stop?): scored, but excluded from the fit",
-        )
-    doubtful = int(np.count_nonzero(delayed_rest(made, recording) & ~marked))
-    if doubtful:
-        notes += (
-            f"with a delay, the friction of {doubtful} samples beside a rest may be that of the "
-            f"rest, which no model predicts: scored, but excluded from the fit",
-        )
     if made.rigid_body:
         notes += (f"identified together with the friction: {' and '.join(made.rigid_body)}",)
     held = [n for n, a, b in zip(made.names, lower, upper, strict=True) if a == b]

@@ -21,14 +21,13 @@ from stribeck.fitting.per_run import named_per_run, refuse_beside, with_own_valu
 from stribeck.fitting.result import Estimator, Fit
 from stribeck.fitting.solve import Solution, solve, with_own_load
 from stribeck.fitting.stated import Under, prior_conflicts, solve_under
-from stribeck.identify.beside_rest import delayed_rest
 from stribeck.identify.choices import ChoiceArguments, Choices, refuse_statements
 from stribeck.identify.effort import THOROUGH, Effort
 from stribeck.identify.estimates import Errors
+from stribeck.identify.left_out import rows_left_out
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.scaling import model_for
-from stribeck.identify.uncertain_direction import rows_left_out
 from stribeck.identify.uncertainty import RESAMPLES, Uncertainty
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
@@ -203,14 +202,14 @@ def with_choices(
 
 
 def rows_to_fit(made: Model, recording: Recording, marked: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Indices of the samples to fit: moving, not transient, not in doubt with a delay.
+    """Indices of the samples to fit: moving and not transient.
 
     Raises `FitError` if there are fewer than the free parameters of the model plus two, and
     `RecordingError` if the channels contradict each other.
     """
     recording.require_consistent()
+    rows = np.flatnonzero(recording.moving & ~marked)
     lower, upper, _ = scaled_bounds(made, recording)
-    rows = np.flatnonzero(recording.moving & ~marked & ~delayed_rest(made, recording))
     fewest = int((lower < upper).sum()) + 2
     if rows.size < fewest:
         raise FitError(

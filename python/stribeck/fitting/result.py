@@ -19,16 +19,14 @@ from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.exogenous import tested
 from stribeck.fitting.predict import predicted
 from stribeck.fitting.stated import PLAIN, HeldConstraint, Under
-from stribeck.identify.beside_rest import delayed_rest
 from stribeck.identify.confounded import Combination
 from stribeck.identify.ends import StartsReport
 from stribeck.identify.estimates import Errors, Estimate
 from stribeck.identify.exogeneity import Exogeneity
 from stribeck.identify.figures import torque_cutoff
 from stribeck.identify.information import Information, criteria, information
+from stribeck.identify.left_out import transients
 from stribeck.identify.matrix import ParameterMatrix
-from stribeck.identify.transients import stretches
-from stribeck.identify.uncertain_direction import uncertain_direction
 from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.fitted import note_origin
 from stribeck.models.model import Model
@@ -218,15 +216,9 @@ class Fit(Plotted):
         return values if root is None else values * root[self.rows]
 
     @property
-    def left_out(self) -> NDArray[np.bool_]:
-        """Samples that the parameters were not fitted to although they move, bool [n]."""
-        moving = self.recording.moving
-        return moving & (self.transient | delayed_rest(self.model, self.recording))
-
-    @property
     def rows(self) -> NDArray[np.intp]:
         """Indices of the samples that the parameters were fitted to."""
-        return np.flatnonzero(self.recording.moving & ~self.left_out)
+        return np.flatnonzero(self.recording.moving & ~self.transient)
 
     @property
     def correlation(self) -> ParameterMatrix | None:
@@ -303,12 +295,7 @@ class Fit(Plotted):
             "rigid_body": list(self.model.rigid_body),
             "drive": self.model.drive,
             "formulas": {terms.name: terms.text for terms in self.model.own},
-            "transients": [
-                list(pair)
-                for pair in stretches(
-                    self.recording, self.transient & ~uncertain_direction(self.recording)
-                )
-            ],
+            "transients": [list(pair) for pair in transients(self.recording, self.transient)],
             "scored": self.recording.scored(),
             "notes": [*self.recording.notes, *self.notes],
             **self.evaluations_dict(),

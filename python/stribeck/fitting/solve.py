@@ -15,6 +15,7 @@ from stribeck.effect.constants import effect_constants
 from stribeck.identify.effort import Effort
 from stribeck.identify.ends import Found
 from stribeck.identify.figures import rms
+from stribeck.identify.late_torque import with_shift
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.search import multi_start
@@ -87,10 +88,11 @@ def solve(
     check_count("starts", starts)
     lower, upper, first = scaled_bounds(made, recording)
     known = made.values
-    start = np.where(np.isfinite(known), np.clip(known, lower, upper), first)
-    problem = Problem(recording, made, rows, load)
     # Known values keep their start in every search; only the others get random starts.
     unknown = ~np.isfinite(known)
+    first = with_shift(first, unknown, made, recording)
+    start = np.clip(np.where(unknown, first, known), lower, upper)
+    problem = Problem(recording, made, rows, load)
     varied = unknown if unknown.any() else np.ones_like(unknown)
     found = multi_start(problem, lower, upper, start, varied, starts, seed, effort)
     search, evaluations = found.search, found.evaluations

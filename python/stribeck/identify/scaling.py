@@ -30,7 +30,7 @@ from stribeck.recording.recording import Recording
 Array = NDArray[np.float64]
 
 #: Least sample period of the scale in s: at a higher rate, a filter delays by more samples.
-LEAST_PERIOD = 0.005
+LEAST_PERIOD = 1.0 / 120.0
 
 
 def scale_values(recording: Recording) -> dict[str, float]:

@@ -77,7 +77,7 @@ def transient_rows(
     moving = recording.moving if apart is None else recording.moving & ~apart
     if recording.averaged or moving.sum() < 20 * WINDOWS:
         return none
-    columns = _of_one_size(flexible_columns(recording), moving)
+    columns = of_one_size(flexible_columns(recording), moving)
     target = recording.torque - recording.known_torque
     window = np.minimum(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
@@ -119,7 +119,7 @@ def _similar(acceleration: Array) -> NDArray[np.intp]:
     return np.argsort(apart, axis=1, kind="stable")[:, :SIMILAR]
 
 
-def _of_one_size(columns: list[Array], moving: NDArray[np.bool_]) -> Array:
+def of_one_size(columns: list[Array], moving: NDArray[np.bool_]) -> Array:
     """Columns with a mean square of 1 over the `moving` samples, array [n, k], without zero ones.
 
     The list is emptied: each column is freed once it is copied, since long recordings fill the

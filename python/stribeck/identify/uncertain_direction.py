@@ -13,7 +13,6 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.transients import transient_rows
 from stribeck.recording.recording import Recording
 from stribeck.recording.velocity_lag import VelocityLag, recorded_lag
 
@@ -38,25 +37,3 @@ def uncertain_direction(recording: Recording) -> NDArray[np.bool_]:
         at = np.minimum(rows + ahead, uncertain.size - 1)
         uncertain |= (sign[at] != sign) & (recording.segment[at] == recording.segment)
     return uncertain & recording.moving
-
-
-def rows_left_out(recording: Recording) -> NDArray[np.bool_]:
-    """Scored samples that no friction model can fit: transients and uncertain directions."""
-    uncertain = uncertain_direction(recording)
-    return transient_rows(recording, uncertain) | uncertain
-
-
-def left_out_notes(recording: Recording, marked: NDArray[np.bool_]) -> tuple[str, ...]:
-    """What a reader has to know of a late velocity, with the samples `marked` as left out."""
-    late = late_velocity(recording)
-    if late is None:
-        return ()
-    count = int(np.count_nonzero(marked & uncertain_direction(recording)))
-    if not count:
-        return ()
-    return (
-        f"the recorded velocity lags the position by {1e3 * late.lag:.3g} ms "
-        f"({late.lag * recording.rate_hz:.2g} samples), as behind a filter: the direction of "
-        f"{count} samples before reversals is uncertain; they are scored, but excluded from the "
-        f"fit",
-    )

@@ -109,4 +109,4 @@ def _rows(fit: Fit, regime: str | None) -> NDArray[np.intp]:
         return fit.rows
     regimes = regime_rows(fit)
     inside = ~regimes["reversal"] if regime == "sliding" else regimes[regime]
-    return np.flatnonzero(inside & fit.recording.moving & ~fit.left_out)
+    return np.flatnonzero(inside & fit.recording.moving & ~fit.transient)

@@ -12,7 +12,7 @@ from stribeck.identify.transients import (
     MOST,
     STRETCHES,
     WINDOWS,
-    _of_one_size,
+    of_one_size,
     flexible_columns,
     stretches,
     transient_rows,
@@ -97,7 +97,7 @@ def test_columns_follow_the_channels(plain: sb.Recording) -> None:
 def test_columns_are_scaled_and_zero_ones_left_out() -> None:
     moving = np.array([True, True, True, False])
     columns = [np.array([3.0, -3.0, 3.0, 9.0]), np.zeros(4), np.array([0.0, 0.0, 2.0, 1.0])]
-    made = _of_one_size([column.copy() for column in columns], moving)
+    made = of_one_size([column.copy() for column in columns], moving)
     assert made.shape == (4, 2)
     np.testing.assert_allclose((made[moving] ** 2).mean(axis=0), 1.0)
     np.testing.assert_allclose(made[:, 0], columns[0] / 3.0)

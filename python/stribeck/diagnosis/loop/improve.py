@@ -35,8 +35,8 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_effects
 from stribeck.identify.confounded import Combination
 from stribeck.identify.effort import FROM_NEARBY
+from stribeck.identify.left_out import rows_left_out
 from stribeck.identify.scaling import model_for
-from stribeck.identify.uncertain_direction import rows_left_out
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt

@@ -99,7 +99,7 @@ def _excluded(fit: Fit) -> float:
     scored = fit.recording.moving
     square = np.where(scored, fit.held_out_residual**2, 0.0)
     total = float(square.sum())
-    return float(square[scored & fit.left_out].sum()) / total if total > 0.0 else 0.0
+    return float(square[scored & fit.transient].sum()) / total if total > 0.0 else 0.0
 
 
 def _unexplained(
@@ -160,7 +160,7 @@ def _place(fit: Fit) -> str:
     total = rms(fit.held_out_residual[fit.rows])
     worst, level = None, WORSE
     for name, mask in regime_rows(fit).items():
-        chosen = mask & fit.recording.moving & ~fit.left_out
+        chosen = mask & fit.recording.moving & ~fit.transient
         if name not in PLACES or chosen.sum() < FEWEST_ROWS:
             continue
         ratio = rms(fit.held_out_residual[chosen]) / total

@@ -19,6 +19,7 @@ from stribeck.diagnosis.extend import extended_models
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
+from stribeck.identify.late_torque import with_shift
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.separable import CAUTIOUS, Search, minimise_from
@@ -154,7 +155,8 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     """The best search: from the known values, with several starts of the unknown ones."""
     known = problem.model.values
     unknown = ~np.isfinite(known)
-    start = np.where(unknown, first, np.clip(known, lower, upper))
+    first = with_shift(first, unknown, problem.model, problem.recording)
+    start = np.clip(np.where(unknown, first, known), lower, upper)
     space = SearchSpace.of(problem, lower, upper)
     nonlinear = space.nonlinear
     # With a bristle, a search finds the amplitudes of dry friction from any start.

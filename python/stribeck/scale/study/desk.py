@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.pool import ProcessPool, run_each
-from stribeck.identify.uncertain_direction import rows_left_out
+from stribeck.identify.left_out import rows_left_out
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.plan import StudyPlan
 

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
-import polars as pl
 import pytest
 import stribeck as sb
+from stribeck.identify.late_torque import friction_of_rest, torque_shift
 
 COULOMB, VISCOUS, LOAD = 2.0, 0.8, 0.25
 RATE, LATE = 1000, 11
 
 
-def moves_with_rests(path: Path) -> sb.Recording:
-    """Moves of random length; at rest a brake holds any torque. The torque is 11 ms late."""
+def moves_with_rests(late: int) -> sb.Recording:
+    """Moves of random length, at rest a brake holds any torque, which is `late` samples late."""
     rng = np.random.default_rng(1)
-    pieces, held, side = [], [], 1.0
+    pieces, held, side = [np.zeros(300)], [np.zeros(300)], 1.0
     for _ in range(24):
         a = rng.uniform(4.0, 10.0)
         ramp, cruise, rest = (int(n) for n in rng.integers((80, 50, 300), (160, 250, 600)))
@@ -28,23 +26,20 @@ def moves_with_rests(path: Path) -> sb.Recording:
     v = np.cumsum(a) / RATE
     v[np.abs(v) < 1e-9] = 0.0
     torque = np.where(v == 0.0, brake, COULOMB * np.sign(v) + VISCOUS * v) + LOAD * a
-    late = np.concatenate([np.full(LATE, torque[0]), torque[:-LATE]])
-    pl.DataFrame(
-        {
-            "time": np.arange(a.size) / RATE,
-            "position": np.cumsum(v) / RATE,
-            "velocity": v + 1e-3 * rng.standard_normal(a.size),
-            "acceleration": a,
-            "torque": late + 0.05 * rng.standard_normal(a.size),
-            "load_torque": LOAD * a,
-        }
-    ).write_parquet(path)
-    return sb.read(path, joint_kind="revolute")
+    return sb.Recording.from_columns(
+        joint_kind="revolute",
+        time=np.arange(a.size) / RATE,
+        position=np.cumsum(v) / RATE,
+        velocity=v + 1e-3 * rng.standard_normal(a.size),
+        acceleration=a,
+        torque=np.roll(torque, late) + 0.05 * rng.standard_normal(a.size),
+        load_torque=LOAD * a,
+    )
 
 
 @pytest.fixture(scope="module")
-def recording(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
-    return moves_with_rests(tmp_path_factory.mktemp("late") / "late.parquet")
+def recording() -> sb.Recording:
+    return moves_with_rests(LATE)
 
 
 def test_the_delay_and_the_friction_are_exact(recording: sb.Recording) -> None:
@@ -54,14 +49,23 @@ def test_the_delay_and_the_friction_are_exact(recording: sb.Recording) -> None:
     assert found.model.value("viscous_friction") == pytest.approx(VISCOUS, rel=0.03)
 
 
+def test_the_shift_follows_from_the_recording(recording: sb.Recording) -> None:
+    assert torque_shift(recording) == LATE
+    in_time = moves_with_rests(0)
+    assert torque_shift(in_time) == 0
+    assert not friction_of_rest(in_time).any()
+
+
+def test_a_torque_that_leads(recording: sb.Recording) -> None:
+    assert torque_shift(moves_with_rests(-LATE)) == -LATE
+
+
 def test_a_note_counts_the_samples_left_out(recording: sb.Recording) -> None:
-    with_delay, without = (
-        sb.fit(spec, recording, starts=1) for spec in ("coulomb+delay", "coulomb")
-    )
-    left_out = without.rows.size - with_delay.rows.size
-    assert left_out > 0
-    assert any(f"the friction of {left_out} samples beside a rest" in n for n in with_delay.notes)
-    assert not any("beside a rest" in note for note in without.notes)
+    found = sb.fit("coulomb", recording, starts=1)
+    left_out = int(recording.moving.sum()) - found.rows.size
+    assert left_out == int(friction_of_rest(recording).sum()) > 0
+    assert any(f"about 11 ms: {left_out} samples beside a rest" in note for note in found.notes)
+    assert found.to_dict()["transients"] == []
 
 
 @pytest.mark.slow

@@ -1,0 +1,135 @@
+"""Samples whose friction is that of a rest, because the torque is late or early.
+
+At rest the friction is whatever holds the joint, which no model predicts. A torque that is late
+shows it in the samples after the joint has started, one that is early in those before it stops.
+There every friction model is wrong by up to twice the dry friction. By how many samples the torque
+is late follows from the recording alone: shifted back, it is best explained by the motion.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.base import linear
+from stribeck.identify.normal import NormalEquations
+from stribeck.identify.scaling import scale_values
+from stribeck.identify.transients import flexible_columns, of_one_size
+from stribeck.models.catalog import catalog
+from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+#: Relative fall of the error with the best shift, below which the torque is neither late nor early.
+LEAST = 0.1
+#: Samples by which the doubt exceeds twice the shift.
+MARGIN = 2
+#: Largest share of the moving samples that are beside a rest, and most samples looked at.
+MOST, ROWS = 0.5, 8000
+
+
+def friction_of_rest(recording: Recording) -> Bools:
+    """Moving samples that may show the friction of a rest, bool [n].
+
+    They are within twice the shift of the torque from a rest; none where the torque is in time.
+    """
+    shift = abs(torque_shift(recording))
+    if shift == 0:
+        return np.zeros(recording.time.size, dtype=bool)
+    return _beside_rests(recording, 2 * shift + MARGIN)
+
+
+def torque_shift(recording: Recording) -> int:
+    """Samples by which the torque lags the motion; negative where it leads, 0 where neither shows.
+
+    It is searched within the bounds of the effect `delay`.
+    """
+    if "torque_shift" not in recording.remembered:
+        recording.remembered["torque_shift"] = {"samples": float(_searched(recording))}
+    return int(recording.remembered["torque_shift"]["samples"])
+
+
+def with_shift(start: Array, unknown: Bools, model: Model, recording: Recording) -> Array:
+    """A start [p] of a search with the shift of the torque as its delay, where that is unknown.
+
+    The error has a minimum near each sample: from a delay of zero a search ends at one of these.
+    A start that a user gave stands.
+    """
+    is_delay = unknown & np.array([name == "delay" for name in model.names], dtype=bool)
+    if not is_delay.any() or "delay" in model.stated.starts:
+        return start
+    return np.where(is_delay, torque_shift(recording) / (recording.rate_hz or 1.0), start)
+
+
+def _searched(recording: Recording) -> int:
+    """The shift with the least error, if that is much less than without a shift."""
+    r = recording
+    if r.averaged or r.rate_hz <= 0.0:
+        return 0
+    delay = catalog()["effects"]["delay"]["parameters"][0]
+    reach = math.ceil(delay["upper"] * scale_values(r)[delay["scale"]] * r.rate_hz)
+    rows = np.flatnonzero(r.moving & ~_beside_rests(r, reach))
+    inside = (rows >= reach) & (rows + reach < r.time.size)
+    rows = rows[inside]
+    rows = rows[r.segment[rows - reach] == r.segment[rows + reach]]
+    columns = of_one_size(flexible_columns(r), r.moving)
+    if rows.size < 10 * columns.shape[1]:
+        return 0
+    rows = rows[:: -(-rows.size // ROWS)]
+    shifts = np.arange(-reach, reach + 1)
+    targets = r.torque[rows[:, None] + shifts] - r.known_torque[rows, None]
+    errors = _errors(columns[rows], targets)
+    best = int(np.argmin(errors))
+    return int(shifts[best]) if errors[best] < (1.0 - LEAST) * errors[reach] else 0
+
+
+def _errors(columns: Array, targets: Array) -> Array:
+    """RMS of what these columns [m, p] leave of each target [m, k], array [k]."""
+    p = columns.shape[1]
+    both = np.ascontiguousarray(np.column_stack([columns, targets]))
+    matrix, _ = NormalEquations.of(both, np.zeros(both.shape[0])).total()
+    squares = [
+        matrix[p + k, p + k]
+        - matrix[p + k, :p] @ linear.least_norm(matrix[:p, :p], matrix[:p, p + k])
+        for k in range(targets.shape[1])
+    ]
+    return np.sqrt(np.maximum(squares, 0.0) / both.shape[0])
+
+
+def _beside_rests(recording: Recording, reach: int) -> Bools:
+    """Moving samples beside a rest, within `reach` samples or less where that is most samples."""
+    found = beside_rest(recording, reach)
+    while np.count_nonzero(found) > MOST * np.count_nonzero(recording.moving):
+        reach //= 2
+        found = beside_rest(recording, reach)
+    return found
+
+
+def beside_rest(recording: Recording, reach: int) -> Bools:
+    """Moving samples within `reach` samples of a rest that lasts more than twice that, bool [n].
+
+    A shorter stretch of slow samples is a reversal, in which friction changes its sign.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.arange(0.0, 3.0, 0.01)
+    >>> v = np.where(np.abs(t - 1.5) < 0.3, 0.0, 1.0)
+    >>> r = Recording.from_columns(time=t, velocity=v, torque=np.ones(t.size))
+    >>> int(beside_rest(r, 5).sum())
+    10
+    """
+    moving, segment = recording.moving, recording.segment
+    changes = np.flatnonzero((moving[1:] != moving[:-1]) | (segment[1:] != segment[:-1])) + 1
+    starts = np.concatenate([[0], changes])
+    ends = np.concatenate([changes, [moving.size]])
+    rests = ~moving[starts] & (ends - starts > 2 * reach)
+    beside = np.zeros(moving.size, dtype=bool)
+    for start, end in zip(starts[rests], ends[rests], strict=True):
+        near = slice(max(start - reach, 0), end + reach)
+        beside[near] |= segment[near] == segment[start]
+    return beside & moving
