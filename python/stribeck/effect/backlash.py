@@ -110,6 +110,7 @@ EFFECT = Effect(
         "teeth change flanks only where the load torque changes its sign: choose a payload or an "
         "orientation that balances the joint within its range"
     ),
+    in_shocks=True,
     in_motion="drive train",
     cannot_hide=_cannot_hide,
 )

@@ -216,6 +216,8 @@ class Effect:
         Another effect that contains this one on any motion.
     acts_alone
         Whether it also acts without the simpler effect of the catalog that it contains.
+    in_shocks
+        Whether it acts in shocks, which are faster than the motion and few samples long.
     design_note
         What no designed motion can do for the effect, as a sentence without a full stop.
     in_motion
@@ -251,6 +253,7 @@ class Effect:
     alike: Callable[[Identified, Identified], tuple[str, ...]] = _no_names
     part_of: str | None = None
     acts_alone: bool = False
+    in_shocks: bool = False
     design_note: str = ""
     in_motion: InMotion = "acts"
     cannot_hide: Callable[[Model, Array], str | None] = _nothing

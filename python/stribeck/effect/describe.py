@@ -51,6 +51,12 @@ def is_drive_train(effect: str) -> bool:
     return known is not None and known.in_motion == "drive train"
 
 
+def acts_in_shocks(effect: str) -> bool:
+    """Whether the effect acts in shocks, which are faster than the motion and few samples long."""
+    known = find(effect)
+    return known is not None and known.in_shocks
+
+
 def base_of(effect: str) -> tuple[str, ...]:
     """The effect beside which another one shows: the simpler one that it contains or acts on.
 

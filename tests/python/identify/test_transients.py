@@ -12,8 +12,8 @@ from stribeck.identify.transients import (
     MOST,
     STRETCHES,
     WINDOWS,
-    of_one_size,
     flexible_columns,
+    of_one_size,
     stretches,
     transient_rows,
 )

@@ -8,6 +8,7 @@ from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.plausibility.carried import Carried, move_of
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
+from stribeck.effect.describe import acts_in_shocks
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import QUICK
@@ -29,9 +30,9 @@ STARTS = 3
 def few_samples(claim: Claim) -> str | None:
     """Why too few samples, or too few of each move, carry the effect; None where enough do.
 
-    Few samples show that the torque jumps there, and not how it changes.
+    Few samples show that the torque jumps there, and not how it changes. A shock is such a jump.
     """
-    if claim.before.recording.averaged:
+    if claim.before.recording.averaged or acts_in_shocks(claim.effect):
         return None
     carried = Carried.of(claim)
     if carried.events == 0:

@@ -1,8 +1,8 @@
-"""Rule: an effect lowers the error of most samples that it changes.
+"""Rule: an effect lowers the mean absolute error of the samples that it changes.
 
 A least-squares fit follows few samples with a very large error, such as those in which the joint
-comes to rest. An effect that stands in for what happens there raises the error elsewhere. One that
-is there lowers the error of a sample that it changes by the noise in seven of ten.
+comes to rest. An effect that stands in for what happens there raises the error elsewhere. In a mean
+of absolute errors the few do not decide.
 """
 
 from __future__ import annotations
@@ -11,16 +11,21 @@ import numpy as np
 
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
+from stribeck.effect.describe import acts_in_shocks
 from stribeck.identify.loss import robust_scale
 
-#: Share of the samples changed by more than the noise whose error must fall.
-MOST = 0.5
-#: Fewer samples show no share.
+#: Fewer samples show no mean.
 FEWEST = 20
 
 
 def worsened(claim: Claim) -> str | None:
-    """In what share of the samples that an effect changes the error rises; None where in few."""
+    """By how much the mean absolute error of the samples that an effect changes rises.
+
+    None where it falls, where fewer than `FEWEST` are changed by more than the noise, and of an
+    effect that acts in shocks, in which a delay of one sample counts.
+    """
+    if acts_in_shocks(claim.effect):
+        return None
     before, along = (
         np.abs(fit.held_out_residual[claim.rows]) for fit in (claim.before, claim.after)
     )
@@ -28,10 +33,10 @@ def worsened(claim: Claim) -> str | None:
     changed = change > robust_scale(along)
     if np.count_nonzero(changed) < FEWEST:
         return None
-    falls = float(np.mean(along[changed] < before[changed]))
-    if falls >= MOST:
+    rise = float(along[changed].sum() / before[changed].sum()) - 1.0
+    if rise <= 0.0:
         return None
     return (
-        f"of the samples that it changes by more than the noise it raises the error of "
-        f"{number(100.0 * (1.0 - falls), 2)} %: a few with a very large error decide"
+        f"the mean absolute error of the samples that it changes by more than the noise rises by "
+        f"{number(100.0 * rise, 2)} %: a few with a very large error decide"
     )

@@ -18,7 +18,7 @@ from stribeck.diagnosis.trials.screening import STARTS, Screened, extended_model
 from stribeck.diagnosis.visibility.model_space import MOST_ROWS
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 from stribeck.effect.base import number
-from stribeck.effect.describe import is_friction
+from stribeck.effect.describe import acts_in_shocks, is_friction
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.at_bound import wider
@@ -74,6 +74,14 @@ class Trial:
         else:
             name = own.names[0]
         return self.fit.estimates.get(name)
+
+    @property
+    def shows_in_band(self) -> bool:
+        """Whether the error falls in the band of the motion, or the effect acts in shocks.
+
+        A shock is faster than the motion, and its place in time tells it from vibration.
+        """
+        return self.evidence.fall_in_band > 0 or acts_in_shocks(self.effect)
 
     @property
     def is_implausible(self) -> bool:
@@ -284,25 +292,25 @@ def passes_in_one_block(trial: Trial, tried: int, least: float) -> bool:
 def passes_at_a_bound(trial: Trial, tried: int, least: float) -> bool:
     """Whether a trial would pass, but its size is at its bound."""
     e = trial.evidence
-    gains = e.everywhere and e.fall_in_band > 0
+    gains = e.everywhere and trial.shows_in_band
     return trial.is_implausible and gains and _is_more_than_chance(trial, tried, least)
 
 
 def passes_outside_the_band(trial: Trial, tried: int, least: float) -> bool:
     """Whether a trial would pass, but gains only at frequencies above those of the motion."""
     e = trial.evidence
-    return e.everywhere and e.fall_in_band <= 0 and _is_significant(trial, tried, least)
+    return e.everywhere and not trial.shows_in_band and _is_significant(trial, tried, least)
 
 
 def is_uncertain(trial: Trial, tried: int, least: float) -> bool:
     """Whether a trial predicts better in most blocks, but not by more than chance may."""
     e = trial.evidence
-    falls = e.everywhere and e.fall >= least and e.fall_in_band > 0
+    falls = e.everywhere and e.fall >= least and trial.shows_in_band
     return falls and e.p_value * tried > SIGNIFICANCE and not trial.is_implausible
 
 
 def _passes_somewhere(trial: Trial, tried: int, least: float) -> bool:
-    return trial.evidence.fall_in_band > 0 and _is_significant(trial, tried, least)
+    return trial.shows_in_band and _is_significant(trial, tried, least)
 
 
 def _is_significant(trial: Trial, tried: int, least: float) -> bool:
