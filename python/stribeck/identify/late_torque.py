@@ -30,6 +30,8 @@ LEAST = 0.1
 MARGIN = 2
 #: Largest share of the moving samples that are beside a rest, and most samples looked at.
 MOST, ROWS = 0.5, 8000
+#: Shifts to each side that are tried; between them where there are more.
+SHIFTS = 50
 
 
 def friction_of_rest(recording: Recording) -> Bools:
@@ -80,11 +82,14 @@ def _searched(recording: Recording) -> int:
     if rows.size < 10 * columns.shape[1]:
         return 0
     rows = rows[:: -(-rows.size // ROWS)]
-    shifts = np.arange(-reach, reach + 1)
-    targets = r.torque[rows[:, None] + shifts] - r.known_torque[rows, None]
-    errors = _errors(columns[rows], targets)
-    best = int(np.argmin(errors))
-    return int(shifts[best]) if errors[best] < (1.0 - LEAST) * errors[reach] else 0
+    columns, known = columns[rows], r.known_torque[rows, None]
+    step = -(-reach // SHIFTS)
+    shifts = step * np.arange(-(reach // step), reach // step + 1)
+    errors = _errors(columns, r.torque[rows[:, None] + shifts] - known)
+    without, best = errors[shifts == 0][0], int(shifts[np.argmin(errors)])
+    near = np.arange(max(best - step + 1, -reach), min(best + step, reach + 1))
+    errors = _errors(columns, r.torque[rows[:, None] + near] - known)
+    return int(near[np.argmin(errors)]) if errors.min() < (1.0 - LEAST) * without else 0
 
 
 def _errors(columns: Array, targets: Array) -> Array:
@@ -92,12 +97,9 @@ def _errors(columns: Array, targets: Array) -> Array:
     p = columns.shape[1]
     both = np.ascontiguousarray(np.column_stack([columns, targets]))
     matrix, _ = NormalEquations.of(both, np.zeros(both.shape[0])).total()
-    squares = [
-        matrix[p + k, p + k]
-        - matrix[p + k, :p] @ linear.least_norm(matrix[:p, :p], matrix[:p, p + k])
-        for k in range(targets.shape[1])
-    ]
-    return np.sqrt(np.maximum(squares, 0.0) / both.shape[0])
+    own, rights = matrix[:p, :p], matrix[p:, :p]
+    explained = np.array([right @ linear.least_norm(own, right) for right in rights])
+    return np.sqrt(np.maximum(np.diag(matrix)[p:] - explained, 0.0) / both.shape[0])
 
 
 def _beside_rests(recording: Recording, reach: int) -> Bools:
