@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base import linear
+from stribeck.effect.columns import displacement_since_reversal
 from stribeck.identify.normal import NormalEquations
 from stribeck.identify.scaling import scale_values
 from stribeck.identify.transients import flexible_columns, of_one_size
@@ -32,6 +33,9 @@ MARGIN = 2
 MOST, ROWS = 0.5, 8000
 #: Shifts to each side that are tried; between them where there are more.
 SHIFTS = 50
+#: Distances over which friction may build up, as in presliding, as shares of the longest move. Such
+#: friction looks like a torque that is late.
+DISTANCES = (0.003, 0.01, 0.03, 0.1, 0.3)
 
 
 def friction_of_rest(recording: Recording) -> Bools:
@@ -74,11 +78,8 @@ def _searched(recording: Recording) -> int:
         return 0
     delay = catalog()["effects"]["delay"]["parameters"][0]
     reach = math.ceil(delay["upper"] * scale_values(r)[delay["scale"]] * r.rate_hz)
-    rows = np.flatnonzero(r.moving & ~_beside_rests(r, reach))
-    inside = (rows >= reach) & (rows + reach < r.time.size)
-    rows = rows[inside]
-    rows = rows[r.segment[rows - reach] == r.segment[rows + reach]]
-    columns = of_one_size(flexible_columns(r), r.moving)
+    rows = _sliding(r, reach)
+    columns = of_one_size([*flexible_columns(r), *_building_up(r)], r.moving)
     if rows.size < 10 * columns.shape[1]:
         return 0
     rows = rows[:: -(-rows.size // ROWS)]
@@ -90,6 +91,24 @@ def _searched(recording: Recording) -> int:
     near = np.arange(max(best - step + 1, -reach), min(best + step, reach + 1))
     errors = _errors(columns, r.torque[rows[:, None] + near] - known)
     return int(near[np.argmin(errors)]) if errors.min() < (1.0 - LEAST) * without else 0
+
+
+def _sliding(recording: Recording, reach: int) -> NDArray[np.intp]:
+    """Samples around which the joint moves in one direction, for `reach` samples to each side."""
+    moving, sign = recording.moving, np.sign(recording.velocity)
+    changes = ~moving
+    changes[1:] |= (sign[1:] != sign[:-1]) | (recording.segment[1:] != recording.segment[:-1])
+    before = np.concatenate([[0], np.cumsum(changes)])
+    rows = np.arange(reach, moving.size - reach)
+    return rows[before[rows + reach + 1] == before[rows - reach + 1]]
+
+
+def _building_up(recording: Recording) -> list[Array]:
+    """Friction that builds up after a reversal, over several distances, arrays [n]."""
+    travel = displacement_since_reversal(recording)
+    longest = float(travel.max()) or 1.0
+    sign = np.sign(recording.velocity)
+    return [sign * np.exp(-travel / (share * longest)) for share in DISTANCES]
 
 
 def _errors(columns: Array, targets: Array) -> Array:

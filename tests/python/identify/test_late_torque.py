@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.identify.late_torque import friction_of_rest, torque_shift
+from stribeck.motion.generate.hidden import generate
 
 COULOMB, VISCOUS, LOAD = 2.0, 0.8, 0.25
 RATE, LATE = 1000, 11
@@ -58,6 +59,12 @@ def test_the_shift_follows_from_the_recording(recording: sb.Recording) -> None:
 
 def test_a_torque_that_leads(recording: sb.Recording) -> None:
     assert torque_shift(moves_with_rests(-LATE)) == -LATE
+
+
+def test_friction_that_builds_up_is_in_time() -> None:
+    """After a reversal presliding looks like a torque that is late."""
+    frame, _ = generate(["presliding"], seconds=20.0, rate=200.0, seed=8)
+    assert torque_shift(sb.read(frame)) == 0
 
 
 def test_a_note_counts_the_samples_left_out(recording: sb.Recording) -> None:
