@@ -90,7 +90,9 @@ def _searched(recording: Recording) -> int:
     without, best = errors[shifts == 0][0], int(shifts[np.argmin(errors)])
     near = np.arange(max(best - step + 1, -reach), min(best + step, reach + 1))
     errors = _errors(columns, r.torque[rows[:, None] + near] - known)
-    return int(near[np.argmin(errors)]) if errors.min() < (1.0 - LEAST) * without else 0
+    best = int(near[np.argmin(errors)])
+    # At the end of the range the error may fall further: what causes that is no shift.
+    return best if errors.min() < (1.0 - LEAST) * without and abs(best) < reach else 0
 
 
 def _sliding(recording: Recording, reach: int) -> NDArray[np.intp]:
