@@ -112,6 +112,21 @@ def on_threads() -> Iterator[ThreadPoolExecutor]:
         yield pool
 
 
+def on_each(do: Callable[[Piece], Result], pieces: Iterable[Piece]) -> list[Result]:
+    """Results of `do` for each piece, in their order, made on `threads` threads.
+
+    Examples
+    --------
+    >>> on_each(abs, (-1, 2, -3))
+    [1, 2, 3]
+    """
+    several = list(pieces)
+    if len(several) < 2:
+        return [do(piece) for piece in several]
+    with on_threads() as pool:
+        return list(pool.map(do, several))
+
+
 class ProcessPool(Executor):
     """Worker processes of this machine, started with the first piece of work.
 

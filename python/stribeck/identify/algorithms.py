@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import SpecError, nearest
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_each
 from stribeck.identify.problem import Problem
 from stribeck.identify.reduced import reduced
 from stribeck.identify.separable import Search
@@ -98,8 +98,7 @@ def search_from(
         optimizer.set_initial_step(FIRST_STEP)
         return objective.run(optimizer, objective.coordinates(start), evaluations)
 
-    with on_threads() as pool:
-        return list(pool.map(run, starts))
+    return on_each(run, starts)
 
 
 def search_range(

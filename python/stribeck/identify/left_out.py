@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.late_torque import friction_of_rest, torque_shift
+from stribeck.identify.late_torque import friction_of_rest
+from stribeck.identify.torque_shift import torque_shift
 from stribeck.identify.transients import stretches, transient_rows
 from stribeck.identify.uncertain_direction import late_velocity, uncertain_direction
 from stribeck.recording.recording import Recording

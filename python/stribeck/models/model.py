@@ -178,7 +178,7 @@ class Model(Shown):
             declared(p, formulas.get(p.name), self.load_unit, self.position_unit) for p in made
         )
 
-    @property
+    @cached_property
     def names(self) -> tuple[str, ...]:
         """Parameter names in the order of `values`."""
         return tuple(p.name for p in self.parameters)

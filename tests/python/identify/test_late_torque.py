@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.identify.late_torque import friction_of_rest, torque_shift
+from stribeck.identify.late_torque import friction_of_rest
+from stribeck.identify.torque_shift import torque_shift
 from stribeck.motion.generate.hidden import generate
 
 COULOMB, VISCOUS, LOAD = 2.0, 0.8, 0.25

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.loop.superfluous import brought_by, fit_without
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
@@ -110,8 +110,7 @@ def exchanges(
         possible = (*_simpler(finding), *allowed)
         return _tried(finding, possible, spoilt, current, least, seed)
 
-    with on_threads() as pool:
-        tried = list(pool.map(each, range(len(findings))))
+    tried = on_each(each, range(len(findings)))
     made = [exchange for one in tried for exchange in one.exchanges]
     ties = {f.effect: one.ties for f, one in zip(findings, tried, strict=True) if one.ties}
     best = min(made, key=lambda one: held_out_square(one.by.fit, current), default=None)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from weakref import WeakKeyDictionary
 
 from stribeck.base.errors import StribeckError
-from stribeck.base.pool import on_threads
+from stribeck.base.memo import Memo
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, evidence, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST
@@ -20,10 +20,8 @@ from stribeck.identify.figures import rms
 from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
 
-#: For each fit what it is without some of its effects, as long as it is in use.
-_WITHOUT: WeakKeyDictionary[Fit, dict[tuple[tuple[str, ...], int], Fit | None]] = (
-    WeakKeyDictionary()
-)
+#: What a fit is without some of its effects.
+_WITHOUT: Memo[Fit, Fit | None] = Memo()
 
 
 def brought_by(finding: Finding) -> tuple[str, ...]:
@@ -56,11 +54,10 @@ def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
     An effect that has no influence without it is left out too. Each such model is fitted once: the
     tests of a path's last model ask for the same ones.
     """
-    known = _WITHOUT.setdefault(current, {})
-    asked = (brought_by(finding), seed)
-    if asked not in known:
+
+    def refitted() -> Fit | None:
         try:
-            known[asked] = fit(
+            return fit(
                 model_without(current, finding),
                 current.recording,
                 starts=1,
@@ -69,8 +66,9 @@ def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:
                 effort=QUICK,
             )
         except StribeckError:
-            known[asked] = None
-    return known[asked]
+            return None
+
+    return _WITHOUT.of(current, (brought_by(finding), seed), refitted)
 
 
 @dataclass(frozen=True)
@@ -105,8 +103,7 @@ def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -
     certainty: dict[str, float] = {}
     gain: dict[str, float] = {}
     square = held_out_square(current, current)
-    with on_threads() as pool:
-        fits = list(pool.map(lambda finding: fit_without(current, finding, seed), findings))
+    fits = on_each(lambda finding: fit_without(current, finding, seed), findings)
     for finding, without in zip(findings, fits, strict=True):
         if without is None:
             continue

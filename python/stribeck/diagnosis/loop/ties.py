@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.loop.exchange import PROMISE
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.provisional import judged
@@ -41,11 +41,10 @@ def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
     """
     remains = path.last.unexplained
     left = (remains.share or 0.0) if remains.is_structure else 0.0
-    with on_threads() as pool:
-        made = pool.map(lambda step: _settled(step, path.current, left, least, seed), path.steps)
-        for step, finding in zip(path.steps, list(made), strict=True):
-            if finding is not step.finding:
-                path = path.with_instead(finding)
+    made = on_each(lambda step: _settled(step, path.current, left, least, seed), path.steps)
+    for step, finding in zip(path.steps, made, strict=True):
+        if finding is not step.finding:
+            path = path.with_instead(finding)
     return path
 
 

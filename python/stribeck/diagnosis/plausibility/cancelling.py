@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from stribeck.base.memo import Memo
 from stribeck.diagnosis.plausibility.claim import Array, Claim, term_torques
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
@@ -9,6 +10,8 @@ from stribeck.identify.figures import rms
 
 #: Largest ratio of the terms' torques, summed, to the torque of the model.
 FOLD = 5.0
+#: Sum of the RMS torques of all terms of a fit.
+_TORQUES: Memo[Fit, float] = Memo()
 
 
 def cancelling(claim: Claim) -> str | None:
@@ -42,4 +45,9 @@ def _modelled(fit: Fit) -> Array:
 def _fold(fit: Fit) -> float:
     """Sum of the RMS torques of all terms, divided by the RMS of their sum."""
     level = rms(_modelled(fit))
-    return sum(rms(torque) for torque in term_torques(fit).values()) / level if level else 0.0
+    if not level > 0.0:
+        return 0.0
+    torques = _TORQUES.of(
+        fit, None, lambda: sum(rms(torque) for torque in term_torques(fit).values())
+    )
+    return torques / level

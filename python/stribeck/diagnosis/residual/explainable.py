@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck import _core
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.residual.noise_floor import state_features
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
@@ -91,6 +91,5 @@ def _held_out(features: Array, residual: Array, block: NDArray[np.intp]) -> Arra
             features[~unseen], residual[~unseen], features[unseen], TREES, LEAF
         )
 
-    with on_threads() as pool:
-        list(pool.map(learned, np.array_split(blocks, min(FOLDS, blocks.size))))
+    on_each(learned, np.array_split(blocks, min(FOLDS, blocks.size)))
     return predicted

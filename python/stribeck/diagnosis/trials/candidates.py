@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
 
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_each, on_threads
 from stribeck.diagnosis.extend import missing_simpler_effect, needs_simpler_effect
 from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.diagnosis.trials.dry_friction import (
@@ -165,7 +166,8 @@ def _explained(fitted: Fit, good: list[Trial], tried: int, least: float) -> list
     if flexible is None:
         return []
     effects = [t for t in good if not is_missing_dry_friction(t, fitted.model)]
-    return [t for t in effects if flexible.explains(t, tried, least)]
+    explained = on_each(lambda trial: flexible.explains(trial, tried, least), effects)
+    return list(itertools.compress(effects, explained))
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,63 @@ KEPT = 0.25
 
 
 @dataclass(frozen=True)
+class Linearised:
+    """A fit in linear form on its samples, with the weights of another.
+
+    Attributes
+    ----------
+    residual : array [m]
+        Measured minus predicted torque, weighted.
+    jacobian : array [m, p]
+        Derivatives of the prediction by the parameters, weighted.
+    group : int array [m]
+        Block of each sample.
+    problem
+        The fit with these weights.
+    """
+
+    residual: Array
+    jacobian: Array
+    group: NDArray[np.uint32]
+    problem: Problem
+
+    @classmethod
+    def of(cls, fitted: Fit, before: Fit) -> Linearised:
+        """That of `fitted`, with the weights of `before`, so that fits are compared alike."""
+        problem = Problem(
+            fitted.recording, fitted.model, fitted.rows, fitted.load, loss_weight=before.loss_weight
+        )
+        residual, jacobian = map(problem.weighted, problem.linearise(fitted.model.values))
+        group = fitted.recording.block[fitted.rows].astype(np.uint32)
+        return cls(residual, jacobian, group, problem)
+
+    def refit(self, extra: Array, least: Array) -> tuple[Array, Array]:
+        """Held-out and in-sample residuals [m], weighted, with `extra` columns [m, k] added.
+
+        The `least` factors [k] of these columns are zero or minus infinity.
+        """
+        residual, group = self.residual, self.group
+        columns = np.column_stack([self.jacobian, self.problem.weighted(extra)])
+        size = np.sqrt(np.einsum("mk,mk->k", columns, columns) / residual.size)
+        columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
+        sums = NormalEquations.of(columns, residual, group)
+        matrix, vector = sums.total()
+        lower = np.concatenate([np.full(self.jacobian.shape[1], -np.inf), least])[size > 0]
+        free = np.full(columns.shape[1], np.inf)
+        # A small ridge bounds columns that only one block determines, in the refit without it.
+        ridge = 1e-6 * residual.size * np.eye(columns.shape[1])
+        held_out = residual.copy()
+        for b in range(sums.square.size):
+            step = solve_bounded(
+                matrix - sums.matrix[b] + ridge, vector - sums.vector[b], lower, free
+            )
+            rows = group == b
+            held_out[rows] = residual[rows] - columns[rows] @ step
+        step = solve_bounded(matrix + ridge, vector, lower, free)
+        return held_out, residual - columns @ step
+
+
+@dataclass(frozen=True)
 class FlexibleRefit:
     """A fit whose effects may take any smooth form.
 
@@ -29,6 +86,8 @@ class FlexibleRefit:
     ----------
     before
         The fit.
+    linearised
+        Its linear form.
     columns : array [m, k]
         Columns that let its effects do so, on its samples.
     least : array [k]
@@ -40,6 +99,7 @@ class FlexibleRefit:
     """
 
     before: Fit
+    linearised: Linearised
     columns: Array
     least: Array
     held_out: Array
@@ -54,9 +114,20 @@ class FlexibleRefit:
     @classmethod
     def beside(cls, before: Fit, columns: Array, least: Array | None = None) -> FlexibleRefit:
         """A fit with given columns [m, k], and their least factors; default: any."""
-        least = np.full(columns.shape[1], -np.inf) if least is None else least
-        held_out, residual = _linear_refit(before, columns, before, least)
-        return cls(before, columns, least, _no_worse(held_out, before, before), residual)
+        return cls._made(before, Linearised.of(before, before), columns, least)
+
+    def instead(self, columns: Array, least: Array | None = None) -> FlexibleRefit:
+        """The same fit with other columns."""
+        return self._made(self.before, self.linearised, columns, least)
+
+    @classmethod
+    def _made(
+        cls, before: Fit, linearised: Linearised, columns: Array, least: Array | None
+    ) -> FlexibleRefit:
+        least = _any(columns) if least is None else least
+        held_out, residual = linearised.refit(columns, least)
+        held_out = _no_worse(held_out, before, before)
+        return cls(before, linearised, columns, least, held_out, residual)
 
     def explains(self, trial: Trial, tried: int, least: float) -> bool:
         """Whether a trial among `tried`, which must bring the fall `least`, no longer passes.
@@ -82,7 +153,8 @@ class FlexibleRefit:
 
     def beside_columns(self, trial: Trial) -> tuple[float, float]:
         """What a trial adds to the columns: relative fall of the held-out RMSE, and p-value."""
-        along, residual_along = _linear_refit(trial.fit, self.columns, self.before, self.least)
+        linearised = Linearised.of(trial.fit, self.before)
+        along, residual_along = linearised.refit(self.columns, self.least)
         along = _no_worse(along, trial.fit, self.before)
         level = float(np.mean(self.held_out**2))
         fall = 1.0 - float(np.sqrt(np.mean(along**2) / level)) if level > 0 else 0.0
@@ -107,32 +179,9 @@ def held_out_with_columns(fitted: Fit, extra: Array, before: Fit) -> Array:
 
     With the weights of `before`, so that fits are compared with the same weights.
     """
-    return _linear_refit(fitted, extra, before, np.full(extra.shape[1], -np.inf))[0]
+    return Linearised.of(fitted, before).refit(extra, _any(extra))[0]
 
 
-def _linear_refit(fitted: Fit, extra: Array, before: Fit, least: Array) -> tuple[Array, Array]:
-    """Held-out and in-sample residuals, weighted, of `fitted` linearised with `extra` columns.
-
-    The `least` factors of these columns are zero or minus infinity.
-    """
-    problem = Problem(
-        fitted.recording, fitted.model, fitted.rows, fitted.load, loss_weight=before.loss_weight
-    )
-    residual, jacobian = map(problem.weighted, problem.linearise(fitted.model.values))
-    columns = np.column_stack([jacobian, problem.weighted(extra)])
-    size = np.sqrt((columns**2).mean(axis=0))
-    columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
-    group = fitted.recording.block[fitted.rows].astype(np.uint32)
-    sums = NormalEquations.of(columns, residual, group)
-    matrix, vector = sums.total()
-    lower = np.concatenate([np.full(jacobian.shape[1], -np.inf), least])[size > 0]
-    free = np.full(columns.shape[1], np.inf)
-    # A small ridge bounds columns that only one block determines, in the refit without it.
-    ridge = 1e-6 * residual.size * np.eye(columns.shape[1])
-    held_out = residual.copy()
-    for b in range(sums.square.size):
-        step = solve_bounded(matrix - sums.matrix[b] + ridge, vector - sums.vector[b], lower, free)
-        rows = group == b
-        held_out[rows] = residual[rows] - columns[rows] @ step
-    step = solve_bounded(matrix + ridge, vector, lower, free)
-    return held_out, residual - columns @ step
+def _any(columns: Array) -> Array:
+    """The least factors [k] of columns that may have any."""
+    return np.full(columns.shape[1], -np.inf)

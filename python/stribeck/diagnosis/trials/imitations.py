@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.measurement.other_acceleration import OTHER_ACCELERATION
 from stribeck.diagnosis.measurement.table import (
     imitating,
@@ -42,8 +43,11 @@ MUCH = 0.5
 
 def beside_causes(before: Fit, columns: Mapping[str, Array]) -> FlexibleRefit:
     """A fit with the `columns` [m, k] of several causes in the measurement, by name."""
-    every = np.column_stack(list(columns.values()))
-    return FlexibleRefit.beside(before, every, least_factors(columns))
+    return FlexibleRefit.beside(before, _beside_each_other(columns), least_factors(columns))
+
+
+def _beside_each_other(columns: Mapping[str, Array]) -> Array:
+    return np.column_stack(list(columns.values()))
 
 
 @dataclass(frozen=True)
@@ -57,11 +61,12 @@ class _Rivals:
     @classmethod
     def beside(cls, before: Fit, columns: Mapping[str, Array]) -> _Rivals:
         """The causes with their `columns` [m, k], by name."""
-        alone = {
-            what: FlexibleRefit.beside(before, made, least_factors({what: made}))
-            for what, made in columns.items()
-        }
-        return cls(before, alone, beside_causes(before, columns))
+        together = beside_causes(before, columns)
+        refits = on_each(
+            lambda what: together.instead(columns[what], least_factors({what: columns[what]})),
+            columns,
+        )
+        return cls(before, dict(zip(columns, refits, strict=True)), together)
 
     def of(self, effect: str) -> _Rivals | None:
         """Those that act on the fit without an effect; None where there are none."""
@@ -70,8 +75,10 @@ class _Rivals:
         )
         if len(acting) == len(self.alone):
             return self
-        alone = {what: self.alone[what] for what in acting}
-        return _Rivals(self.before, alone, beside_causes(self.before, acting)) if acting else None
+        if not acting:
+            return None
+        together = self.together.instead(_beside_each_other(acting), least_factors(acting))
+        return _Rivals(self.before, {what: self.alone[what] for what in acting}, together)
 
     def only(self, what: str) -> _Rivals | None:
         """One of them; None where it has no columns."""

@@ -97,8 +97,8 @@ def fits_exactly(effect: str, after: Fit) -> bool:
         return False
     extra = np.column_stack(columns)
     constant = np.ones((extra.shape[0], 1))
-    without = FlexibleRefit.beside(after, constant).residual
-    residual = FlexibleRefit.beside(after, np.column_stack([constant, extra])).residual
+    free = FlexibleRefit.beside(after, constant)
+    without, residual = free.residual, free.instead(np.column_stack([constant, extra])).residual
     return added_torque_test(without - residual, residual, extra.shape[1]) >= CLEAR
 
 

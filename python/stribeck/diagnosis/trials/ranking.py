@@ -7,7 +7,7 @@ from typing import Protocol
 
 import numpy as np
 
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import DEMOTED, NotClaimed, impossible
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
@@ -169,16 +169,13 @@ def _tied(
         fall = level - held_out_square(t.fit, before)
         return fall >= ALIKE * (level - least_left) and t.parameters <= best.parameters
 
-    same = {
-        t.effect
-        for t in good[1:]
-        if (statistic[t.effect] <= TIE or is_alike(t)) and not adds_to(best, t, tried, least, seed)
-    }
+    near = [t for t in good[1:] if statistic[t.effect] <= TIE or is_alike(t)]
+    adds = on_each(lambda t: adds_to(best, t, tried, least, seed), near)
+    same = {t.effect for t, more in zip(near, adds, strict=True) if not more}
     tied = [best] + [t for t in good if t.effect in same]
     # Of the ties that may replace the best, the simplest of those with a known size comes first.
-    replaces = {
-        t.effect: _may_replace(t, best, statistic[t.effect], tried, least, seed) for t in tied
-    }
+    may = on_each(lambda t: _may_replace(t, best, statistic[t.effect], tried, least, seed), tied)
+    replaces = {t.effect: can for t, can in zip(tied, may, strict=True)}
     return sorted(
         tied,
         key=lambda t: (
@@ -217,9 +214,8 @@ def _doubtful_ties(
 
     weights = {trial.effect: weight(trial) for trial in trials}
     alike = [trial for trial in trials if weights[trial.effect] > NEGLIGIBLE]
-    with on_threads() as pool:
-        adds = pool.map(lambda trial: adds_to(best, trial, tried, least, seed), alike)
-        apart = [trial.effect for trial, more in zip(alike, adds, strict=True) if more]
+    adds = on_each(lambda trial: adds_to(best, trial, tried, least, seed), alike)
+    apart = [trial.effect for trial, more in zip(alike, adds, strict=True) if more]
     return {t.effect: weights[t.effect] for t in alike if t.effect not in apart}
 
 

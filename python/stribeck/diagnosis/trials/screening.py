@@ -15,15 +15,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.memo import Memo
 from stribeck.diagnosis.extend import extended_models
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
-from stribeck.identify.late_torque import with_shift
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
 from stribeck.identify.separable import CAUTIOUS, Search, minimise_from
 from stribeck.identify.space import SearchSpace
+from stribeck.identify.torque_shift import with_shift
 from stribeck.models.model import Model
 from stribeck.models.rigid_body import own_load
 
@@ -47,7 +48,7 @@ SHIFTS, MOST_SHIFTS = (-2.0, -1.0, 1.0, 2.0), 5
 TOLERANCE = 1e-6
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Screened:
     """An effect after a few steps.
 
@@ -64,6 +65,10 @@ class Screened:
     effect: str
     model: Model
     fall: float
+
+
+#: What was screened beside a fit.
+_SCREENED: Memo[Fit, Screened | None] = Memo()
 
 
 def extended_model(before: Fit, effect: str) -> Model:
@@ -85,7 +90,14 @@ def problem_of(model: Model, before: Fit) -> Problem:
 
 
 def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
-    """Try `effect` on few samples; None where the model cannot take it."""
+    """Try `effect` on few samples; None where the model cannot take it.
+
+    The same effect beside the same fit is tried once.
+    """
+    return _SCREENED.of(before, (effect, seed), lambda: _screened(before, effect, seed))
+
+
+def _screened(before: Fit, effect: str, seed: int) -> Screened | None:
     try:
         model = model_for(extended_model(before, effect), before.recording)
         base = _without_memory(before.model)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.trials.trial import Trial
@@ -48,18 +49,23 @@ class Sifted:
         cls, before: Fit, trials: Sequence[Trial], least: float, rivals: Sequence[Trial] = ()
     ) -> Sifted:
         """Judge each of `trials`; `least` is the fall that a finding must bring."""
-        stand: list[Trial] = []
-        demoted: list[Doubted] = []
-        refused: list[Doubted] = []
-        for trial in trials:
-            claim = Claim(trial.effect, before, trial.fit, least)
-            if (reason := impossible(claim)) is not None:
-                refused.append(Doubted(trial, reason))
-            elif (reason := weak(claim)) is not None:
-                demoted.append(Doubted(trial, reason))
-            else:
-                stand.append(trial)
-        return cls(tuple(stand), tuple(demoted), tuple(refused), rivals=tuple(rivals))
+        several = on_each(lambda trial: cls._of_one(before, trial, least), trials)
+        return cls(
+            tuple(trial for one in several for trial in one.stand),
+            tuple(row for one in several for row in one.demoted),
+            tuple(row for one in several for row in one.refused),
+            rivals=tuple(rivals),
+        )
+
+    @classmethod
+    def _of_one(cls, before: Fit, trial: Trial, least: float) -> Sifted:
+        """Judge one trial."""
+        claim = Claim(trial.effect, before, trial.fit, least)
+        if (reason := impossible(claim)) is not None:
+            return cls(refused=(Doubted(trial, reason),))
+        if (reason := weak(claim)) is not None:
+            return cls(demoted=(Doubted(trial, reason),))
+        return cls(stand=(trial,))
 
     def with_stand(self, trials: Sequence[Trial]) -> Sifted:
         """The same with other trials that stand."""

@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 
 from stribeck.base.errors import StribeckError
+from stribeck.base.memo import Memo
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.shape import KEPT, share_kept, usual_shape
 from stribeck.diagnosis.plausibility.shape import STARTS as SHAPE_STARTS
@@ -99,6 +100,10 @@ class Trial:
         )
 
 
+#: The trials that followed screenings beside a fit.
+_FOLLOWED: Memo[Fit, Trial | None] = Memo()
+
+
 def add_effect(
     before: Fit,
     effect: str,
@@ -133,7 +138,12 @@ def try_effect(before: Fit, promising: Screened) -> Trial | None:
     Where a shape parameter ends at a bound, and the effect then acts within what the recording
     resolves or beyond what it reaches, that parameter is held at its usual value if the effect
     keeps most of its gain: the recording does not determine it. The bounds that a user gave stand.
+    The same screening is followed once.
     """
+    return _FOLLOWED.of(before, promising, lambda: _followed(before, promising))
+
+
+def _followed(before: Fit, promising: Screened) -> Trial | None:
     free = _tried(before, promising.effect, promising.model)
     if free is None or free.evidence.fall <= 0.0:
         return free

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from stribeck.base.errors import StribeckError
-from stribeck.base.pool import on_threads
+from stribeck.base.pool import on_each
 from stribeck.diagnosis.extend import holds
 from stribeck.diagnosis.flexible_shape import flexible_columns
 from stribeck.diagnosis.testable import Untestable
@@ -71,8 +71,7 @@ def visibility(
             return None
 
     visible, hidden = [], []
-    with on_threads() as pool:
-        effects = [one for one in pool.map(look, candidates) if one is not None]
+    effects = [one for one in on_each(look, candidates) if one is not None]
     for one in effects:
         if one.smallest <= largest:
             visible.append(one)
