@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.identify.delays import across_samples, free_delay
 from stribeck.identify.effort import Effort
 from stribeck.identify.ends import Ended, Found, StartsReport
 from stribeck.identify.hops import gauss_newton
@@ -15,6 +16,8 @@ from stribeck.identify.problem import Problem
 from stribeck.identify.separable import MOST_ROUNDS, Search, minimise, rounding
 from stribeck.identify.space import SearchSpace
 
+Array = NDArray[np.float64]
+
 #: Sums of squares that agree to this share are at one minimum, or at equal minima.
 TIE = 1e-9
 #: Searches whose sum of squares on few samples is larger than the least by at most this share also
@@ -22,6 +25,8 @@ TIE = 1e-9
 CLOSE, MOST_FINISHED = 2e-3, 5
 #: Searches of a model with a state that are compared on all samples, after so many steps.
 COMPARED, COMPARED_STEPS = 10, 12
+#: Steps from each delay that is tried beside that of a minimum.
+DELAY_STEPS = 3
 #: Most steps of a search on all samples.
 MOST_STEPS = 200
 
@@ -35,14 +40,7 @@ def finished(problem: Problem, space: SearchSpace, tried: list[Search], effort: 
     evaluations = [search.evaluations for search in tried]
     done: dict[int, Search] = {}
     for k in _continued(tried, leaders, noise, effort.finished):
-        found = minimise(
-            problem,
-            tried[k].values,
-            space.lower,
-            space.upper,
-            tolerance=effort.tolerance,
-            most=MOST_STEPS if effort.evaluations else MOST_ROUNDS,
-        )
+        found = _descended(problem, space, tried[k].values, effort)
         evaluations[k] += found.evaluations
         done[int(leaders[k])] = found
     ends = tuple(
@@ -54,6 +52,26 @@ def finished(problem: Problem, space: SearchSpace, tried: list[Search], effort: 
     at_minimum = sum(end.search is best for end in ends)
     report = StartsReport(effort.algorithm, at_minimum, alone)
     return Found(best, ends, sum(evaluations), report)
+
+
+def _descended(problem: Problem, space: SearchSpace, start: Array, effort: Effort) -> Search:
+    """The search on all samples from one start; not near a minimum, it tries other delays too."""
+    searched = bool(effort.evaluations)
+    most = MOST_STEPS if searched else MOST_ROUNDS
+    lower, upper = space.lower, space.upper
+
+    def descended(values: Array) -> Search:
+        return minimise(problem, values, lower, upper, tolerance=effort.tolerance, most=most)
+
+    found = descended(start)
+    if not (searched and free_delay(problem, lower, upper).any()):
+        return found
+    other = across_samples(
+        problem, found, lower, upper, lambda at: gauss_newton(problem, at, space, DELAY_STEPS)
+    )
+    if other.square < found.square:
+        return descended(other.values).continuing(other)
+    return other
 
 
 def _compared(

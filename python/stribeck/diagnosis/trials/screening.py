@@ -18,6 +18,7 @@ from stribeck.base.errors import StribeckError
 from stribeck.base.memo import Memo
 from stribeck.diagnosis.extend import extended_models
 from stribeck.fitting.result import Fit
+from stribeck.identify.delays import across_samples, free_delay
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
 from stribeck.identify.problem import Problem
@@ -42,8 +43,6 @@ FIRST_STEPS, FURTHER_STEPS = 3, 20
 FURTHER_STEPS_ON_ALL_ROWS = 4
 #: A search whose squared error falls by this share in as many more steps is on its way.
 FALLS = 0.01
-#: Samples by which a delay is shifted to find the other minima, and how often at most.
-SHIFTS, MOST_SHIFTS = (-2.0, -1.0, 1.0, 2.0), 5
 #: A search ends at a step that predicts a smaller relative fall of the squared error.
 TOLERANCE = 1e-6
 
@@ -191,10 +190,12 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     further = FURTHER_STEPS if few else FURTHER_STEPS_ON_ALL_ROWS
     went = _steps(problem, np.array([search.values for search in best]), lower, upper, further)
     found = min(went, key=lambda search: search.square)
-    is_new_delay = unknown & np.array([name == "delay" for name in problem.model.names])
+    is_new_delay = unknown & free_delay(problem, lower, upper)
     if not is_new_delay.any() or problem.model.has_state:
         return found
-    return _across_samples(problem, found, is_new_delay, lower, upper)
+    return across_samples(
+        problem, found, lower, upper, lambda at: _steps(problem, at, lower, upper, FIRST_STEPS)
+    )
 
 
 def _on_their_way(
@@ -212,25 +213,6 @@ def _on_their_way(
         if after.square < (1.0 - FALLS) * before.square
     ]
     return sorted(falling, key=lambda search: search.square)[:1]
-
-
-def _across_samples(
-    problem: Problem, found: Search, delay: NDArray[np.bool_], lower: Array, upper: Array
-) -> Search:
-    """The best search from `found`, and from delays that differ by a few samples.
-
-    The sign of a delayed velocity changes sample by sample: the error has a minimum near each.
-    """
-    period = 1.0 / problem.recording.rate_hz
-    for _ in range(MOST_SHIFTS):
-        at = np.tile(found.values, (len(SHIFTS), 1))
-        at[:, delay] += period * np.array(SHIFTS)[:, None]
-        tried = _steps(problem, np.clip(at, lower, upper), lower, upper, FIRST_STEPS)
-        best = min(tried, key=lambda search: search.square)
-        if not best.square < found.square:
-            break
-        found = best
-    return found
 
 
 def _steps(problem: Problem, at: Array, lower: Array, upper: Array, most: int) -> list[Search]:

@@ -27,6 +27,8 @@ __all__ = ["Moved", "late", "note", "torque_follows"]
 _LEAST = 0.5
 #: Largest deviation from one of the ratio of both: beyond it, the units contradict each other.
 _RATIO = 0.05
+#: Share of the usual speed below which a joint is at rest, and the quantile that is usual.
+_AT_REST, _USUAL = 3e-3, 0.95
 #: Channels that a torque may be read from.
 _TORQUES = ("friction_torque", "torque", "current")
 
@@ -65,13 +67,18 @@ def _agree(data: Channels, segment: Ints, position: Floats, velocity: Floats) ->
     return same and abs(pair.ratio - 1.0) <= _RATIO and pair.phase <= PHASE
 
 
-def torque_follows(data: Channels, derived: Moved, recorded: Moved, moving: Bools) -> bool:
+def torque_follows(data: Channels, derived: Moved, recorded: Moved, threshold: float) -> bool:
     """Whether the torque follows the `derived` motion more closely than the `recorded` one.
 
     By least squares of Coulomb and viscous friction, inertia, gravity and the load, whose factors
-    are free, over the samples `moving` [n].
+    are free, over the samples at which the joint moves by both: faster than the `threshold` by the
+    recorded velocity, and than a small share of the usual speed by the derived one. A filter decays
+    long after a stop, and what holds a joint at rest has the direction of the motion before it.
     """
     torque = next((data.values[name] for name in _TORQUES if name in data.values), None)
+    speeds = np.abs(recorded.velocity)
+    slowest = _AT_REST * float(np.quantile(speeds, _USUAL))
+    moving = (speeds > threshold) & (np.abs(derived.velocity) > slowest)
     if torque is None or not moving.any():
         return False
     left = [_left(data, torque, motion, moving) for motion in (derived, recorded)]

@@ -42,6 +42,42 @@ def test_the_samples_that_move_are_those_of_the_recorded_velocity(tmp_path: Path
     assert late.velocity_threshold == as_recorded.velocity_threshold
 
 
+def moves_with_rests(lag: float) -> pl.DataFrame:
+    """Moves that end in a rest, held by friction in the direction of the move before it."""
+    rng, rate = np.random.default_rng(4), 100.0
+    pieces, side = [np.zeros(200)], 1.0
+    for _ in range(20):
+        ramp, cruise, rest = (int(n) for n in rng.integers((60, 50, 150), (120, 200, 300)))
+        a = rng.uniform(1.0, 3.0)
+        pieces += [np.full(ramp, side * a), np.zeros(cruise), np.full(ramp, -side * a)]
+        pieces += [np.zeros(rest)]
+        side = -side
+    a = np.concatenate(pieces)
+    v = np.cumsum(a) / rate
+    v[np.abs(v) < 1e-9] = 0.0
+    direction = pl.Series(np.where(v == 0.0, np.nan, np.sign(v))).fill_nan(None)
+    held = direction.fill_null(strategy="forward").fill_null(0.0).to_numpy()
+    friction = np.where(v == 0.0, 0.8 * COULOMB * held, COULOMB * np.sign(v)) + 0.5 * v
+    frame = pl.DataFrame(
+        {
+            "time": np.arange(v.size) / rate,
+            "position": np.cumsum(v) / rate + 1e-4 * rng.standard_normal(v.size),
+            "velocity": v,
+            "torque": friction + 0.2 * a + 0.02 * rng.standard_normal(v.size),
+        }
+    )
+    noise = 0.02 * rng.standard_normal(v.size)
+    return behind_a_filter(frame, lag).with_columns(velocity=pl.col("velocity") + noise)
+
+
+def test_what_holds_a_joint_at_rest_does_not_keep_a_late_velocity(tmp_path: Path) -> None:
+    """Long after each stop the velocity still decays, in the direction of what holds the joint."""
+    recording = record(tmp_path, moves_with_rests(2.0 * LAG))
+    assert recording.columns["velocity"].derived
+    fit = sb.fit("coulomb", recording, starts=1)
+    assert fit.estimates["coulomb_friction"].value == pytest.approx(COULOMB, rel=0.02)
+
+
 @pytest.mark.parametrize(
     ("lag", "derived"), [(0.01, False), (0.011, False), (0.014, False), (0.018, True)]
 )

@@ -1,0 +1,56 @@
+"""The minima of a delay: the error has one near each sample.
+
+The sign of a delayed velocity changes sample by sample, so a search from one delay ends near it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stribeck.identify.problem import Problem
+from stribeck.identify.separable import Search
+
+Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+#: Samples by which a delay is shifted to find the other minima, and how often at most.
+SHIFTS, MOST_SHIFTS = (-2.0, -1.0, 1.0, 2.0), 5
+
+
+def free_delay(problem: Problem, lower: Array, upper: Array) -> Bools:
+    """Which of the parameters [p] is a delay between different bounds."""
+    named = np.array([name == "delay" for name in problem.model.names], dtype=bool)
+    return named & (lower < upper)
+
+
+def across_samples(
+    problem: Problem,
+    found: Search,
+    lower: Array,
+    upper: Array,
+    steps: Callable[[Array], list[Search]],
+) -> Search:
+    """The best search from `found`, and from delays that differ by a few samples.
+
+    Parameters
+    ----------
+    steps
+        Searches from several starts [k, p].
+    """
+    delay = free_delay(problem, lower, upper)
+    period = 1.0 / problem.recording.rate_hz
+    evaluations = found.evaluations
+    for _ in range(MOST_SHIFTS):
+        at = np.tile(found.values, (len(SHIFTS), 1))
+        at[:, delay] += period * np.array(SHIFTS)[:, None]
+        tried = steps(np.clip(at, lower, upper))
+        evaluations += sum(search.evaluations for search in tried)
+        best = min(tried, key=lambda search: search.square)
+        if not best.square < found.square:
+            break
+        found = best
+    return replace(found, evaluations=evaluations)

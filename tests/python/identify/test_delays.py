@@ -1,0 +1,40 @@
+"""A delay has a minimum near each sample: a fit finds the least of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy
+import stribeck as sb
+from stribeck.motion.generate.hidden import generate
+
+RATE, TIME_CONSTANT = 250.0, 0.005
+
+
+@pytest.fixture(scope="module")
+def recording() -> sb.Recording:
+    """A joint with an unknown inertia whose torque is behind a filter of first order."""
+    frame, _ = generate(["inertia"], seconds=40.0, rate=RATE, seed=2)
+    torque = frame["torque"].to_numpy()
+    share = 1.0 - np.exp(-1.0 / (TIME_CONSTANT * RATE))
+    behind = scipy.signal.lfilter([share], [1.0, share - 1.0], torque - torque[0]) + torque[0]
+    return sb.read(frame.with_columns(torque=behind))
+
+
+def error(found: sb.Fit) -> float:
+    """The error over the samples fitted to, N m."""
+    return float(np.sqrt(np.mean(found.residual[found.rows] ** 2)))
+
+
+def test_the_minimum_does_not_depend_on_the_start(recording: sb.Recording) -> None:
+    found = [
+        sb.fit("coulomb+inertia+delay", recording, starts=1, start={"delay": start})
+        for start in (0.0, 0.008, 0.016)
+    ]
+    errors = [error(one) for one in found]
+    assert max(errors) == pytest.approx(min(errors), rel=1e-6)
+    held = [
+        error(sb.fit("coulomb+inertia+delay", recording, starts=1, fix={"delay": delay}))
+        for delay in np.arange(0.0, 0.012, 0.001).tolist()
+    ]
+    assert min(errors) <= min(held)
