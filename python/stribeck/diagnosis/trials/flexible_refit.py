@@ -59,7 +59,7 @@ class Linearised:
         """
         residual, group = self.residual, self.group
         columns = np.column_stack([self.jacobian, self.problem.weighted(extra)])
-        size = np.sqrt(np.einsum("mk,mk->k", columns, columns) / residual.size)
+        size = np.sqrt((columns**2).mean(axis=0))
         columns = np.ascontiguousarray(columns[:, size > 0] / size[size > 0])
         sums = NormalEquations.of(columns, residual, group)
         matrix, vector = sums.total()
