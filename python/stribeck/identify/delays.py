@@ -22,7 +22,9 @@ SHIFTS, MOST_SHIFTS = (-2.0, -1.0, 1.0, 2.0), 5
 
 
 def free_delay(problem: Problem, lower: Array, upper: Array) -> Bools:
-    """Which of the parameters [p] is a delay between different bounds."""
+    """Which of the parameters [p] is a delay between different bounds; none at steady points."""
+    if not problem.recording.rate_hz > 0.0:
+        return np.zeros(lower.size, dtype=bool)
     named = np.array([name == "delay" for name in problem.model.names], dtype=bool)
     return named & (lower < upper)
 

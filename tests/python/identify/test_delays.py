@@ -38,3 +38,14 @@ def test_the_minimum_does_not_depend_on_the_start(recording: sb.Recording) -> No
         for delay in np.arange(0.0, 0.012, 0.001).tolist()
     ]
     assert min(errors) <= min(held)
+
+
+def test_steady_points_show_no_delay() -> None:
+    velocity = np.tile(np.linspace(-2.0, 2.0, 40), 6)
+    points = sb.Recording.from_columns(
+        velocity=velocity,
+        torque=2.0 * np.sign(velocity) + 0.3 * velocity,
+        joint_kind="revolute",
+        average="row",
+    )
+    assert sb.fit("coulomb+delay", points, starts=2).rmse < 1e-9
