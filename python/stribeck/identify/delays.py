@@ -38,12 +38,16 @@ def across_samples(
 ) -> Search:
     """The best search from `found`, and from delays that differ by a few samples.
 
+    It is `found` where no delay is free.
+
     Parameters
     ----------
     steps
         Searches from several starts [k, p].
     """
     delay = free_delay(problem, lower, upper)
+    if not delay.any():
+        return found
     period = 1.0 / problem.recording.rate_hz
     evaluations = found.evaluations
     for _ in range(MOST_SHIFTS):

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.delays import across_samples, free_delay
+from stribeck.identify.delays import across_samples
 from stribeck.identify.effort import Effort
 from stribeck.identify.ends import Ended, Found, StartsReport
 from stribeck.identify.hops import gauss_newton
@@ -64,7 +64,7 @@ def _descended(problem: Problem, space: SearchSpace, start: Array, effort: Effor
         return minimise(problem, values, lower, upper, tolerance=effort.tolerance, most=most)
 
     found = descended(start)
-    if not (searched and free_delay(problem, lower, upper).any()):
+    if not searched:
         return found
     other = across_samples(
         problem, found, lower, upper, lambda at: gauss_newton(problem, at, space, DELAY_STEPS)
