@@ -209,6 +209,8 @@ class Effect:
     out_of_reach
         Why it acts beyond what the recording reaches, as a clause: a time constant longer than a
         move, a speed above the highest; None where it does not.
+    absorbed
+        Why the recording cannot show the effect beside those of a model; None where it can.
     alike
         Other effects that the recording cannot tell from it once it is identified: a sensor is
         missing, or its torque follows theirs.
@@ -250,6 +252,7 @@ class Effect:
     forms: Callable[[Recording], int] = _one_form
     unresolved: Callable[[Identified], str | None] = _nothing
     out_of_reach: Callable[[Identified], str | None] = _nothing
+    absorbed: Callable[[Model, Recording], Obstacle | None] = _nothing
     alike: Callable[[Identified, Identified], tuple[str, ...]] = _no_names
     part_of: str | None = None
     acts_alone: bool = False

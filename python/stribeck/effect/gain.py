@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stribeck.base.errors import option
@@ -18,6 +20,7 @@ from stribeck.effect.base import (
 from stribeck.effect.columns import odd_powers
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.load import PAYLOAD_NOTE, load_is_too_uniform
+from stribeck.effect.load_parts import absorbed, alike
 from stribeck.effect.registry import of_catalog
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
@@ -77,12 +80,14 @@ def _alike(before: Identified, after: Identified) -> tuple[str, ...]:
     """Friction that differs between the quadrants by a share of the load, friction rescaled.
 
     Any friction may be larger by the gain; what remains of it is a share of the load torque in the
-    direction of the load, whether the joint drives it or is driven.
+    direction of the load, whether the joint drives it or is driven. An inertia or a weight is
+    another, where the load torque is no more than its torque.
     """
+    rigid = alike("gain", after)
     if "quadrant" in after.model.effects:
-        return ()
+        return rigid
     facts = RecordingFacts.of(after.recording, after.load)
-    return () if of_catalog("quadrant").obstacle(facts) else ("quadrant",)
+    return rigid if of_catalog("quadrant").obstacle(facts) else (*rigid, "quadrant")
 
 
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
@@ -98,6 +103,7 @@ EFFECT = Effect(
     refusal=_refusal,
     fixed_form=FixedForm("load_torque", _functions_of_torque),
     design_note=PAYLOAD_NOTE,
+    absorbed=partial(absorbed, "gain"),
     alike=_alike,
     in_motion="measurement",
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import scipy
 
@@ -17,6 +19,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.columns import half_waves
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.load_parts import absorbed, alike
 
 #: Range of a revolute joint in rad below which gravity is indistinguishable from an offset.
 GRAVITY_RANGE = 0.3
@@ -83,4 +86,6 @@ EFFECT = Effect(
     where=_where,
     plausible=_plausible,
     fixed_form=FixedForm("position", _functions_of_position, _alike),
+    absorbed=partial(absorbed, "gravity"),
+    alike=lambda before, after: alike("gravity", after),
 )

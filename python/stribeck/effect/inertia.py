@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stribeck.effect.base import (
@@ -16,6 +18,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.columns import hats
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.load_parts import absorbed, alike
 
 #: A joint that takes longer than this (s) to reach its top speed hardly accelerates.
 SLOWEST_START = 60.0
@@ -58,4 +61,6 @@ EFFECT = Effect(
     where=_where,
     plausible=_plausible,
     fixed_form=FixedForm("acceleration", _functions_of_acceleration),
+    absorbed=partial(absorbed, "inertia"),
+    alike=lambda before, after: alike("inertia", after),
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 
 from stribeck.effect.base import (
@@ -14,6 +16,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.columns import half_waves
 from stribeck.effect.gravity import GRAVITY_RANGE
+from stribeck.effect.load_parts import absorbed
 from stribeck.effect.periodogram import FEWEST_PERIODS
 from stribeck.effect.position import generated_ends, stroke_ends, stroke_is_not_repeated
 
@@ -55,6 +58,7 @@ EFFECT = Effect(
     id="spring",
     view=ResidualView("position"),
     obstacle=stroke_is_not_repeated,
+    absorbed=partial(absorbed, "spring"),
     where=_where,
     plausible=_plausible,
     constants=stroke_ends,

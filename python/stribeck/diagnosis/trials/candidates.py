@@ -60,7 +60,7 @@ def candidates_for(fitted: Fit, rejected: Collection[str], more: Collection[str]
     Dry friction is one of them where the law, a formula, has none.
     """
     recording, model = fitted.recording, fitted.model
-    cannot = untestable(recording, own_load(model, recording))
+    cannot = untestable(recording, own_load(model, recording), model)
     inside = {*model.effects, *model.rigid_body, *model.own_effects}
     for effect in more:
         if effect_name(effect) not in inside:

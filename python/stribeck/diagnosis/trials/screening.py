@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from stribeck.base.errors import StribeckError
 from stribeck.base.memo import Memo
 from stribeck.diagnosis.extend import extended_models
+from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 from stribeck.identify.delays import across_samples, free_delay
 from stribeck.identify.figures import rms
@@ -97,6 +98,9 @@ def screened(before: Fit, effect: str, *, seed: int = 0) -> Screened | None:
 
 
 def _screened(before: Fit, effect: str, seed: int) -> Screened | None:
+    known = find(effect)
+    if known is not None and known.absorbed(before.model, before.recording) is not None:
+        return None
     try:
         model = model_for(extended_model(before, effect), before.recording)
         base = _without_memory(before.model)

@@ -1,0 +1,138 @@
+"""The load torque as the sum of torques that are effects of the catalog.
+
+A gain scales friction and load torque alike, and any friction may be larger by it. Where the load
+torque is that of an inertia and a weight alone, a gain is therefore the same as an inertia and a
+weight that are both wrong by its share. Their held-out errors may differ all the same: the load
+torque and the acceleration of the motion are behind different filters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from stribeck.base import linear
+from stribeck.effect.base import Array, Identified, Obstacle
+from stribeck.models.model import Model
+from stribeck.recording.derive import Smoother
+from stribeck.recording.mend.load_of_motion import slow_cutoff
+from stribeck.recording.recording import Recording
+
+#: Share of the load torque that counts as none of it: filters and errors of position leave less.
+NEGLIGIBLE = 0.1
+#: Cosine of the angle between two weights from which on they are parallel.
+PARALLEL = 0.98
+#: The effect that is a scale of the load torque.
+SCALE = "gain"
+#: Effects whose torque of position holds that of another.
+HOLDS = {"spring": "gravity"}
+
+
+@dataclass(frozen=True)
+class LoadParts:
+    """What a load torque consists of.
+
+    Attributes
+    ----------
+    effects
+        The effects whose torques are all of it; none where it holds more than these.
+    weight
+        Its factors of the cosine and the sine of the position.
+    """
+
+    effects: tuple[str, ...]
+    weight: tuple[float, float]
+
+    @classmethod
+    def of(cls, recording: Recording) -> LoadParts:
+        """Of the recorded load torque, in slow motion, which no filter changes.
+
+        Examples
+        --------
+        >>> t = np.arange(0.0, 20.0, 0.01)
+        >>> q = np.sin(t) + 0.3 * np.sin(2.7 * t)
+        >>> a = -np.sin(t) - 0.3 * 2.7**2 * np.sin(2.7 * t)
+        >>> def parts(load):
+        ...     r = Recording.from_columns(time=t, position=q, torque=np.sin(t), load_torque=load)
+        ...     return LoadParts.of(r).effects
+        >>> parts(2.0 * a), parts(2.0 * a + 5.0 * np.cos(q)), parts(2.0 * a + 5.0 * (t > 7.0))
+        (('inertia',), ('inertia', 'gravity'), ())
+        """
+        if "load parts" not in recording.kept:
+            recording.kept["load parts"] = _split(recording)
+        rest, inertia, gravity, offset, cosine, sine = map(float, recording.kept["load parts"])
+        shares = {"inertia": inertia, "gravity": gravity, "offset": offset}
+        all_of_it = rest <= NEGLIGIBLE
+        effects = (name for name, share in shares.items() if all_of_it and share > NEGLIGIBLE)
+        return cls(tuple(effects), (cosine, sine))
+
+
+def absorbed(effect: str, model: Model, recording: Recording) -> Obstacle | None:
+    """Why `effect` cannot be told beside those of a model: together they scale the load torque."""
+    others = _others(HOLDS.get(effect, effect), recording)
+    if not others or not all(_has(model, other) for other in others):
+        return None
+    return Obstacle(
+        f"{' and '.join(others)} are in the model, and the load torque holds no more than the "
+        "torque of an inertia and a weight: a common scale of load torque and friction is "
+        "indistinguishable from these",
+        "add a load that is known from a weighing, or measure the torque constant",
+    )
+
+
+def alike(effect: str, after: Identified) -> tuple[str, ...]:
+    """The effects that in the place of `effect` would scale the load torque alike.
+
+    Each of an inertia, a weight and a gain is the sum of the others: beside all but one of these,
+    that one does what `effect` does.
+    """
+    others = _others(effect, after.recording)
+    missing = tuple(other for other in others if not _has(after.model, other))
+    return missing if len(missing) == 1 and _is_parallel(effect, after) else ()
+
+
+def _others(effect: str, recording: Recording) -> tuple[str, ...]:
+    """The effects that `effect` is the sum of; none where the load torque has parts beside them."""
+    parts = LoadParts.of(recording).effects
+    return tuple(e for e in (*parts, SCALE) if e != effect) if effect in (*parts, SCALE) else ()
+
+
+def _has(model: Model, effect: str) -> bool:
+    """Whether the effects of a model, or its rigid body, hold the torque of an effect."""
+    inside = (*model.effects, *model.rigid_body)
+    return effect in inside or any(HOLDS.get(other) == effect for other in inside)
+
+
+def _is_parallel(effect: str, after: Identified) -> bool:
+    """Whether a weight that was found has the direction of that of the load torque."""
+    if effect != "gravity":
+        return True
+    found = np.array([after.model.value("gravity_cos"), after.model.value("gravity_sin")])
+    given = np.array(LoadParts.of(after.recording).weight)
+    size = float(np.linalg.norm(found) * np.linalg.norm(given))
+    return size > 0.0 and abs(float(found @ given)) >= PARALLEL * size
+
+
+def _split(r: Recording) -> Array:
+    """Shares of the load torque: the rest, inertia, weight and constant; the weight's factors."""
+    none = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    load, acceleration, rows = r.load_torque, r.acceleration, r.moving
+    if load is None or acceleration is None or r.averaged or not rows.any():
+        return none
+    slow = Smoother(r.time, r.segment, slow_cutoff(r.time, r.velocity, r.segment))
+    shapes = [acceleration, np.ones_like(load)]
+    if r.position is not None and r.joint_kind == "revolute":
+        shapes += [np.cos(r.position), np.sin(r.position)]
+    columns = np.column_stack([slow.smooth(shape) for shape in shapes])[rows]
+    whole = slow.smooth(load)[rows]
+    size = float(np.sqrt(np.mean(whole**2)))
+    if not size > 0.0:
+        return none
+    factors = linear.least_norm(columns, whole)
+    weight = factors[2:] if factors.size > 2 else np.zeros(2)
+    # A constant belongs to a weight that hardly turns.
+    parts = [columns[:, 0] * factors[0], columns[:, 2:] @ factors[2:], columns[:, 1] * factors[1]]
+    parts[1] = parts[1] - parts[1].mean()
+    torques = [whole - columns @ factors, *parts]
+    return np.array([*(float(np.sqrt(np.mean(x**2))) / size for x in torques), *weight])
