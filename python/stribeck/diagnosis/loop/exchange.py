@@ -216,8 +216,8 @@ def _in_place(finding: Finding, current: Fit, without: Fit, effect: str, seed: i
 def _most(finding: Finding, by: Trial, judged: Sifted) -> float:
     """The highest confidence of an effect in place of another."""
     # What shows an effect that contains the other shows the other as well.
-    by_little = judged.narrow or simpler_effect(by.effect) == finding.effect
-    return NARROW if by_little else 1.0
+    most = judged.most.get(by.effect, 1.0)
+    return min(most, NARROW) if simpler_effect(by.effect) == finding.effect else most
 
 
 def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, better: float) -> bool:

@@ -21,13 +21,18 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.beside_structure import is_undecided
-from stribeck.diagnosis.trials.evidence import Difference, difference, held_out_square
+from stribeck.diagnosis.trials.evidence import (
+    Difference,
+    difference,
+    evidence,
+    held_out_square,
+)
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
-from stribeck.diagnosis.trials.imitations import NARROW
+from stribeck.diagnosis.trials.imitations import NARROW, most_certain
 from stribeck.diagnosis.trials.proxies import alike, fits_exactly
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial, tie_weight, try_effect
-from stribeck.effect.describe import is_friction
+from stribeck.effect.describe import is_drive_train, is_friction
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
@@ -41,7 +46,12 @@ def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
     """
     remains = path.last.unexplained
     left = (remains.share or 0.0) if remains.is_structure else 0.0
-    made = on_each(lambda step: _settled(step, path.current, left, least, seed), path.steps)
+
+    def made_of(step: ImprovementStep) -> Finding:
+        finding = _settled(step, path.current, left, least, seed)
+        return _beside_measurement(finding, path.current, seed)
+
+    made = on_each(made_of, path.steps)
     for step, finding in zip(path.steps, made, strict=True):
         if finding is not step.finding:
             path = path.with_instead(finding)
@@ -83,6 +93,16 @@ def _settled(
         left = {**dict.fromkeys(ties, 1.0), **left}
         weight = finding.weight
     return replace(finding, weight=weight, indistinguishable_from=tuple(left))
+
+
+def _beside_measurement(finding: Finding, current: Fit, seed: int) -> Finding:
+    """The finding, no surer than causes in the measurement leave it in the model `current`."""
+    without = fit_without(current, finding, seed) if is_drive_train(finding.effect) else None
+    if without is None:
+        return finding
+    trial = Trial(finding.effect, current, evidence(without, current))
+    most = most_certain(trial, without)
+    return replace(finding, weight=most) if most < finding.weight else finding
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from stribeck.diagnosis.measurement.table import (
     measurement_columns,
     without_effect,
 )
+from stribeck.diagnosis.plausibility.rules import DEMOTED
 from stribeck.diagnosis.trials.evidence import Difference, held_out_square
 from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
@@ -157,7 +158,7 @@ def without_imitations(
             reason = f"{addition.largest} explains what it adds to {simpler_effect(trial.effect)}"
             sift = sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
         elif min(r.advantage(trial) for r in (rivals, addition) if r is not None) <= SIMPLEST:
-            sift = sift.narrowed(trial)
+            sift = sift.narrowed(trial, NARROW)
     return sift
 
 
@@ -172,21 +173,40 @@ def _explained(trial: Trial, rivals: _Rivals, better: float) -> Sifted:
 def _other_judged(sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float) -> Sifted:
     """The same, with an effect that is no friction judged beside the causes that look like it.
 
-    An effect of the drive train is not certain where a load torque of another acceleration explains
-    much of what it does. All causes in the measurement together smooth the load torque as it does,
-    so that what it adds to them says nothing. Where they predict as well it is not certain.
+    An effect of the drive train must predict better than each of them, and is not certain where a
+    load torque of another acceleration explains much of what it does.
     """
     alone = {what: one for what in imitating(trial.effect) if (one := rivals.only(what))}
+    drive_train = is_drive_train(trial.effect)
     for one in alone.values():
-        if not one.let_stand(trial, tried, least):
-            return sift.instead(trial, _explained(trial, one, one.advantage(trial)))
-    if not is_drive_train(trial.effect):
+        better = one.advantage(trial)
+        if not one.let_stand(trial, tried, least) or (drive_train and better <= SIMPLEST):
+            return sift.instead(trial, _explained(trial, one, better))
+    if not drive_train:
         return sift
     other = alone.get(OTHER_ACCELERATION.what)
     if other is not None and other.share_of(trial) >= MUCH:
         reason = f"{OTHER_ACCELERATION.what} looks like a drive train that twists"
         return sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
-    return sift.narrowed(trial) if rivals.advantage(trial) <= SIMPLEST else sift
+    return sift.narrowed(trial, _most_certain(trial, rivals))
+
+
+def _most_certain(trial: Trial, rivals: _Rivals) -> float:
+    """The highest confidence of an effect of the drive train beside all causes together.
+
+    Together they smooth the load torque as it does, so that what it adds to them says nothing.
+    Where they predict better it is as likely as not, where they predict as well it is not certain.
+    """
+    better = rivals.advantage(trial)
+    if better < -TIE:
+        return DEMOTED
+    return NARROW if better <= SIMPLEST else 1.0
+
+
+def most_certain(trial: Trial, before: Fit) -> float:
+    """The highest confidence of an effect of the drive train beside causes in the measurement."""
+    columns = measurement_columns(before)
+    return _most_certain(trial, _Rivals.beside(before, columns)) if columns else 1.0
 
 
 def standing(before: Fit, trial: Trial, passed: Sequence[Trial], least: float) -> Sifted:

@@ -14,7 +14,6 @@ from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.beside_structure import ALIKE, is_undecided, structure_share
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
-from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.proxies import alike
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
@@ -96,8 +95,7 @@ def ranked(
         # Little remains for an effect whose simpler part is a tie, and measuring may cause that.
         if simpler_effect(t.effect) in others:
             weight = min(weight, DEMOTED)
-        if t.effect in sift.narrow:
-            weight = min(weight, NARROW)
+        weight = min(weight, sift.most.get(t.effect, 1.0))
         made.append(finding_of(before, t, weight, others, floor))
     besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))

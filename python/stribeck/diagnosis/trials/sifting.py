@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from stribeck.base.pool import on_each
 from stribeck.diagnosis.plausibility.claim import Claim
@@ -32,8 +32,9 @@ class Sifted:
         Those whose evidence is too narrow, or that causes in the measurement explain as well.
     refused
         Those whose values cannot be right, or that causes in the measurement explain better.
-    narrow
-        Those that stand, but predict hardly better than causes in the measurement.
+    most
+        The highest confidence of those that stand, but predict hardly better than causes in the
+        measurement.
     rivals
         Trials that do not pass, and may predict as well as one that stands all the same.
     """
@@ -41,7 +42,7 @@ class Sifted:
     stand: tuple[Trial, ...] = ()
     demoted: tuple[Doubted, ...] = ()
     refused: tuple[Doubted, ...] = ()
-    narrow: frozenset[str] = frozenset()
+    most: Mapping[str, float] = field(default_factory=dict)
     rivals: tuple[Trial, ...] = ()
 
     @classmethod
@@ -71,9 +72,9 @@ class Sifted:
         """The same with other trials that stand."""
         return replace(self, stand=tuple(trials))
 
-    def narrowed(self, trial: Trial) -> Sifted:
-        """The same with one trial that stands, but by little."""
-        return replace(self, narrow=self.narrow | {trial.effect})
+    def narrowed(self, trial: Trial, most: float) -> Sifted:
+        """The same with one trial that stands, but by little: with a confidence of at most that."""
+        return replace(self, most={**self.most, trial.effect: most})
 
     def instead(self, trial: Trial, judged: Sifted) -> Sifted:
         """The same without one trial that stands, and with what was `judged` of it again."""
@@ -81,6 +82,6 @@ class Sifted:
             tuple(t for t in self.stand if t.effect != trial.effect),
             (*self.demoted, *judged.demoted),
             (*self.refused, *judged.refused),
-            self.narrow,
+            self.most,
             self.rivals,
         )
