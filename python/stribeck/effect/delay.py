@@ -22,19 +22,25 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
 
 def _where(before: Identified, after: Identified) -> str:
     tau = after.model.value("delay")
-    way = "lags behind" if tau > 0 else "leads"
-    samples = abs(tau) * after.recording.rate_hz
     said = (
-        f"the torque {way} the motion by {number(1e3 * abs(tau))} ms ({number(samples)} samples), "
-        f"most visible at reversals"
+        f"the torque {_way(tau)} the motion by {number(1e3 * abs(tau))} ms "
+        f"({number(abs(tau) * after.recording.rate_hz)} samples), most visible at reversals"
     )
     late = recorded_lag(after.recording)
-    if late is None or tau >= 0.0 or not late.exceeds(-tau / ALIKE) or late.lag > -tau * ALIKE:
+    if late is None or not late.exceeds(abs(tau) / ALIKE):
         return said
-    return (
+    said = (
         f"{said}; the velocity is {number(1e3 * late.lag)} ms behind the position, as behind a "
-        f"filter, which explains it"
+        "filter"
     )
+    if tau < 0.0 and late.lag <= -tau * ALIKE:
+        return f"{said}, which explains it"
+    behind = late.lag + tau
+    return f"{said}: the torque {_way(behind)} that by {number(1e3 * abs(behind))} ms"
+
+
+def _way(tau: float) -> str:
+    return "lags behind" if tau > 0 else "leads"
 
 
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:

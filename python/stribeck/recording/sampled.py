@@ -133,7 +133,7 @@ def _is_replaced(data: Channels, segment: Ints, period: float, threshold: float)
     smoother = Smoother(time, segment, cutoff)
     by_position = Moved(derived, smoother.smooth(position, 2))
     recorded = Moved(velocity, smoother.smooth(velocity, 1))
-    if not torque_follows(data, by_position, recorded, threshold):
+    if not torque_follows(data, by_position, recorded, threshold, segment):
         return False
     data.notes.append(note(lag, period))
     return True

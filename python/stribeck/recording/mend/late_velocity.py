@@ -2,8 +2,8 @@
 
 Drives report a velocity behind a low-pass filter. Such a velocity changes its sign after the joint
 does, so that every friction model is wrong by twice the dry friction in between, and what is added
-to it imitates the filter. The position has no such lag. Where the torque is as late as the
-velocity, as where both were read by the same slow request, the velocity is kept.
+to it imitates the filter. The position has no such lag. A torque may be late too, by a delay of
+its own: each motion is compared with the torque at the shift that suits it best.
 """
 
 from __future__ import annotations
@@ -29,6 +29,8 @@ _LEAST = 0.5
 _RATIO = 0.05
 #: Share of the usual speed below which a joint is at rest, and the quantile that is usual.
 _AT_REST, _USUAL = 3e-3, 0.95
+#: Largest shift of the torque in samples, as of the effect `delay`.
+REACH = 6
 #: Channels that a torque may be read from.
 _TORQUES = ("friction_torque", "torque", "current")
 
@@ -67,8 +69,13 @@ def _agree(data: Channels, segment: Ints, position: Floats, velocity: Floats) ->
     return same and abs(pair.ratio - 1.0) <= _RATIO and pair.phase <= PHASE
 
 
-def torque_follows(data: Channels, derived: Moved, recorded: Moved, threshold: float) -> bool:
+def torque_follows(
+    data: Channels, derived: Moved, recorded: Moved, threshold: float, segment: Ints
+) -> bool:
     """Whether the torque follows the `derived` motion more closely than the `recorded` one.
+
+    Each at its own best shift of the torque, so that a late torque does not speak for a late
+    velocity.
 
     By least squares of Coulomb and viscous friction, inertia, gravity and the load, whose factors
     are free, over the samples at which the joint moves by both: faster than the `threshold` by the
@@ -81,19 +88,30 @@ def torque_follows(data: Channels, derived: Moved, recorded: Moved, threshold: f
     moving = (speeds > threshold) & (np.abs(derived.velocity) > slowest)
     if torque is None or not moving.any():
         return False
-    left = [_left(data, torque, motion, moving) for motion in (derived, recorded)]
+    shifted = _shifted(torque, segment)[moving]
+    left = [_left(data, shifted, motion, moving) for motion in (derived, recorded)]
     return left[0] < left[1]
 
 
-def _left(data: Channels, torque: Floats, motion: Moved, moving: Bools) -> float:
-    """Sum of squares that the ordinary model of a motion leaves of a torque."""
+def _shifted(torque: Floats, segment: Ints) -> Floats:
+    """The torque [n, k] as it is so many samples before and after, in the same segment."""
+    rows = np.arange(torque.size)[:, None] + np.arange(-REACH, REACH + 1)
+    rows = np.clip(rows, 0, torque.size - 1)
+    here = np.broadcast_to(torque[:, None], rows.shape)
+    return np.where(segment[rows] == segment[:, None], torque[rows], here)
+
+
+def _left(data: Channels, torques: Floats, motion: Moved, moving: Bools) -> float:
+    """Least sum of squares that the ordinary model of a motion leaves of these torques [m, k]."""
     q, v = data.values["position"], motion.velocity
     columns = [np.sign(v), v, motion.acceleration, np.sin(q), np.cos(q), np.ones_like(v)]
     if "load_torque" in data.values:
         columns.append(data.values["load_torque"])
     matrix = np.column_stack(columns)[moving]
-    rest = torque[moving] - matrix @ linear.least_norm(matrix, torque[moving])
-    return float(rest @ rest)
+    matrix = matrix / np.maximum(np.linalg.norm(matrix, axis=0), np.finfo(float).tiny)
+    own, rights = matrix.T @ matrix, torques.T @ matrix
+    explained = np.array([right @ linear.least_norm(own, right) for right in rights])
+    return float(np.min(np.sum(torques**2, axis=0) - explained))
 
 
 def note(lag: float, period: float) -> str:
