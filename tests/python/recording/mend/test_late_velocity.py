@@ -78,6 +78,14 @@ def test_what_holds_a_joint_at_rest_does_not_keep_a_late_velocity(tmp_path: Path
     assert fit.estimates["coulomb_friction"].value == pytest.approx(COULOMB, rel=0.02)
 
 
+@pytest.mark.parametrize("samples", [-3, 4, 6])
+def test_a_late_torque_does_not_keep_a_late_velocity(samples: int, tmp_path: Path) -> None:
+    late = late_joint().with_columns(
+        pl.col("torque", "load_torque").shift(samples).backward_fill().forward_fill()
+    )
+    assert record(tmp_path, late).columns["velocity"].derived
+
+
 @pytest.mark.parametrize(
     ("lag", "derived"), [(0.01, False), (0.011, False), (0.014, False), (0.018, True)]
 )
