@@ -3,7 +3,7 @@
 Drives report a velocity behind a low-pass filter. Such a velocity changes its sign after the joint
 does, so that every friction model is wrong by twice the dry friction in between, and what is added
 to it imitates the filter. The position has no such lag. A torque may be late too, by a delay of
-its own: each motion is compared with the torque at the shift that suits it best.
+its own: each motion is also compared with the torque at the shift that suits it best.
 """
 
 from __future__ import annotations
@@ -74,8 +74,8 @@ def torque_follows(
 ) -> bool:
     """Whether the torque follows the `derived` motion more closely than the `recorded` one.
 
-    Each at its own best shift of the torque, so that a late torque does not speak for a late
-    velocity.
+    With the torque as recorded, or each at its own best shift of the torque: a late torque does not
+    speak for a late velocity.
 
     By least squares of Coulomb and viscous friction, inertia, gravity and the load, whose factors
     are free, over the samples at which the joint moves by both: faster than the `threshold` by the
@@ -89,8 +89,8 @@ def torque_follows(
     if torque is None or not moving.any():
         return False
     shifted = _shifted(torque, segment)[moving]
-    left = [_left(data, shifted, motion, moving) for motion in (derived, recorded)]
-    return left[0] < left[1]
+    by_derived, by_recorded = (_left(data, shifted, x, moving) for x in (derived, recorded))
+    return bool(by_derived[REACH] < by_recorded[REACH] or by_derived.min() < by_recorded.min())
 
 
 def _shifted(torque: Floats, segment: Ints) -> Floats:
@@ -101,8 +101,8 @@ def _shifted(torque: Floats, segment: Ints) -> Floats:
     return np.where(segment[rows] == segment[:, None], torque[rows], here)
 
 
-def _left(data: Channels, torques: Floats, motion: Moved, moving: Bools) -> float:
-    """Least sum of squares that the ordinary model of a motion leaves of these torques [m, k]."""
+def _left(data: Channels, torques: Floats, motion: Moved, moving: Bools) -> Floats:
+    """Sums of squares [k] that the ordinary model of a motion leaves of these torques [m, k]."""
     q, v = data.values["position"], motion.velocity
     columns = [np.sign(v), v, motion.acceleration, np.sin(q), np.cos(q), np.ones_like(v)]
     if "load_torque" in data.values:
@@ -111,7 +111,7 @@ def _left(data: Channels, torques: Floats, motion: Moved, moving: Bools) -> floa
     matrix = matrix / np.maximum(np.linalg.norm(matrix, axis=0), np.finfo(float).tiny)
     own, rights = matrix.T @ matrix, torques.T @ matrix
     explained = np.array([right @ linear.least_norm(own, right) for right in rights])
-    return float(np.min(np.sum(torques**2, axis=0) - explained))
+    return np.asarray(np.sum(torques**2, axis=0) - explained)
 
 
 def note(lag: float, period: float) -> str:
