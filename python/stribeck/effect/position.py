@@ -28,16 +28,24 @@ FEWEST_PASSES = 2.5
 WAVES = 8
 
 
-def stroke_is_not_repeated(facts: RecordingFacts) -> Obstacle | None:
-    """The position was not recorded, or the stroke is not passed again in both directions."""
+def stroke_is_not_shown(facts: RecordingFacts) -> Obstacle | None:
+    """The position was not recorded, or does not vary in both directions."""
     q = facts.scored(facts.recording.position)
     if q is None:
         return Obstacle("no position was recorded", "record the joint's position")
     if (only := one_direction(facts)) is not None:
         return only
-    stroke = float(np.ptp(q))
-    if stroke <= 0:
+    if not np.ptp(q) > 0.0:
         return Obstacle("the position does not vary", "move along the stroke")
+    return None
+
+
+def stroke_is_not_repeated(facts: RecordingFacts) -> Obstacle | None:
+    """The stroke is not shown, or not passed again in both directions."""
+    if (why := stroke_is_not_shown(facts)) is not None:
+        return why
+    q = facts.scored(facts.recording.position)
+    stroke = 0.0 if q is None else float(np.ptp(q))
     path = float(np.sum(np.abs(facts.recording.velocity) * facts.recording.dt))
     if path < FEWEST_PASSES * stroke:
         return Obstacle(

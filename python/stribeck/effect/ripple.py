@@ -16,7 +16,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.periodogram import FEWEST_PERIODS, most_periods, strongest_period
-from stribeck.effect.position import generated_ends, stroke_ends, stroke_is_not_repeated
+from stribeck.effect.position import generated_ends, stroke_ends, stroke_is_not_shown
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
@@ -29,7 +29,8 @@ def ripple_period_of(model: Model) -> float:
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
-    if (why := stroke_is_not_repeated(facts)) is not None:
+    # Its periods repeat within one pass of the stroke.
+    if (why := stroke_is_not_shown(facts)) is not None:
         return why
     if most_periods(facts.recording) > FEWEST_PERIODS:
         return None

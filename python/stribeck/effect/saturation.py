@@ -20,20 +20,22 @@ from stribeck.effect.gain import motor_torque_is_not_known, needs_motor_torque
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
-#: Ratio of the largest torque to the usual one from which a curve over torque shows.
-TORQUE_RATIO = 2.0
+#: Ratio of the largest torque to a small one from which a curve over torque shows, and the share of
+#: the samples that have less than a small one.
+TORQUE_RATIO, SMALL = 2.0, 0.1
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     if (why := motor_torque_is_not_known(facts)) is not None:
         return why
-    usual, top = np.quantile(np.abs(facts.recording.torque[facts.recording.moving]), [0.5, 0.99])
-    if top >= TORQUE_RATIO * usual:
+    sizes = np.abs(facts.recording.torque[facts.recording.moving])
+    small, top = np.quantile(sizes, [SMALL, 0.99])
+    if top >= TORQUE_RATIO * small:
         return None
     unit = facts.recording.torque_unit
     return Obstacle(
-        f"the largest torque of {number(top)} {unit} is less than twice the median "
-        f"{number(usual)} {unit}",
+        f"all but a tenth of the samples have a torque above {number(small)} {unit}, more than "
+        f"half of the largest, {number(top)} {unit}",
         "add fast accelerations or heavy payloads, up to the largest torque of the motor",
     )
 

@@ -63,7 +63,7 @@ def test_what_takes_a_place_is_no_surer_than_if_it_had_been_found(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def by_little(before: sb.Fit, trial: Trial, *_: object) -> Sifted:
-        return Sifted(stand=(trial,)).narrowed(trial)
+        return Sifted(stand=(trial,)).narrowed(trial, NARROW)
 
     path = detour(tmp_path, 0.2 * motion()[3], "spring", rivals=("inertia",))
     monkeypatch.setattr(exchange, "standing", by_little)

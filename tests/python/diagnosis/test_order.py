@@ -312,7 +312,7 @@ def test_no_finding_is_surer_than_that_it_predicts_better(world: World) -> None:
 
 def test_what_predicts_hardly_better_than_the_measurement_is_not_certain(world: World) -> None:
     trial = cast("Trial", BEST)
-    sift = Sifted((trial,)).narrowed(trial)
+    sift = Sifted((trial,)).narrowed(trial, NARROW)
     found = ranked(cast("Fit", BEFORE), sift, TRIED, LEAST, NoiseFloor(1.0), 0).findings[0]
     assert found.confidence == NARROW
 

@@ -129,7 +129,7 @@ def test_a_torque_that_is_always_the_same_size_shows_no_saturation(tmp_path: Pat
         tmp_path,
         frame.with_columns(load_torque=pl.Series(load), torque=pl.Series(load + 3 * np.sign(v))),
     )
-    assert "less than twice the median" in found["saturation"] and "gain" not in found
+    assert "more than half of the largest" in found["saturation"] and "gain" not in found
 
 
 def slower(frame: pl.DataFrame, times: float) -> pl.DataFrame:
@@ -200,3 +200,11 @@ def test_one_pass_of_the_stroke(tmp_path: Path) -> None:
     )
     found = answers(tmp_path, once)
     assert "passed only 2.0 times" in found["position"] and "1 reversal" in found["presliding"]
+    # The periods of a ripple are passed more often.
+    assert "spring" in found and "ripple" not in found
+
+
+def test_a_torque_that_is_mostly_large_may_show_saturation(tmp_path: Path) -> None:
+    """A weight turned by a quarter: most of its torques are above half of the largest."""
+    found = answers(tmp_path, joint().with_columns(torque=6.0 * (1.3 * pl.col("position")).cos()))
+    assert "saturation" not in found
