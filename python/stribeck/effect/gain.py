@@ -63,11 +63,13 @@ def _where(before: Identified, after: Identified) -> str:
     m = after.model
     share = m.value("gain")
     most = max(abs(x) for x in m.box["load_torque"])
-    error = "too much" if share > 0 else "too little"
+    error, other = ("too much", "small") if share > 0 else ("too little", "large")
+    percent = number(100 * abs(share))
     return (
-        f"the torque channel shows {number(100 * abs(share))} % {error} of all torque, "
+        f"the torque channel shows {percent} % {error} of all torque, "
         f"{number(abs(share) * most)} {m.load_unit} under {number(most)} "
-        f"{m.load_unit} of load, at any speed"
+        f"{m.load_unit} of load, at any speed; a load torque that is {percent} % too {other}, as "
+        f"of a wrong mass, looks the same"
     )
 
 
