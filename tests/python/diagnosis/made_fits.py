@@ -28,6 +28,7 @@ class Moved:
     segment: NDArray[np.intp] = None  # type: ignore[assignment]
     block: NDArray[np.intp] = None  # type: ignore[assignment]
     averaged: bool = False
+    joint_kind: str = "prismatic"
 
     def __post_init__(self) -> None:
         size = self.velocity.size
@@ -54,9 +55,10 @@ class Moved:
 
 @dataclass(frozen=True)
 class Unit:
-    """A model by its unit."""
+    """A model by its units."""
 
     torque_unit: str = "N m"
+    position_unit: str = "m"
 
 
 @dataclass(frozen=True)

@@ -159,6 +159,20 @@ def test_the_worst_place_is_named_with_its_ratio(speed: Array, mask: Array, word
     assert said.where == f"the error is {ratio:.2g} times the average {words}"
 
 
+@pytest.mark.parametrize("always", [True, False], ids=["in each pass", "in a few passes"])
+def test_the_part_of_the_stroke_is_named_that_is_worst_in_each_pass(always: bool) -> None:
+    passes = 20
+    position = np.tile(np.linspace(0.0, 1.0, 400), passes)
+    worst = (position > 0.5) & (position < 0.55)
+    if not always:
+        worst &= np.arange(position.size) >= position.size // 2
+    residual = np.where(worst, 3.0, 1.0) * np.where(np.arange(position.size) % 2, 2.0, -2.0)
+    recording = Moved(np.ones(position.size), position=position)
+    said = unexplained(left(recording, residual), NO_FLOOR, could(0.5)).where
+    assert said is not None
+    assert ("between 0.5 and 0.55 m" in said) is always
+
+
 def test_a_place_must_be_clearly_worse() -> None:
     """At twice the excess of `WORSE` it is named, at half of it is not."""
     for excess, named in ((0.5, False), (2.0, True)):

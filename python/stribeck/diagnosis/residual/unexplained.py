@@ -19,6 +19,7 @@ from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.regimes import regime_rows
 from stribeck.diagnosis.residual.varying_friction import VaryingFriction, varying_friction
 from stribeck.effect.base import number
+from stribeck.effect.position import stroke_constants
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 
@@ -29,6 +30,8 @@ SUSPICIOUS = 0.15
 #: A regime is named where the error exceeds this multiple of the average.
 WORSE = 1.15
 FEWEST_ROWS = 50
+#: Parts of the stroke, of which one may be named.
+PARTS = 20
 
 PLACES = {
     "reversal": "around reversals",
@@ -158,12 +161,43 @@ def _repeated(fit: Fit, floor: float) -> str:
 def _place(fit: Fit) -> str:
     """Where the error is largest, compared with the average."""
     total = rms(fit.held_out_residual[fit.rows])
-    worst, level = None, WORSE
+    worst, level = _along_stroke(fit, total)
     for name, mask in regime_rows(fit).items():
         chosen = mask & fit.recording.moving & ~fit.transient
         if name not in PLACES or chosen.sum() < FEWEST_ROWS:
             continue
         ratio = rms(fit.held_out_residual[chosen]) / total
         if ratio > level:
-            worst, level = name, ratio
-    return f"the error is {level:.2g} times the average {PLACES[worst]}" if worst else "everywhere"
+            worst, level = PLACES[name], ratio
+    return f"the error is {level:.2g} times the average {worst}" if worst else "everywhere"
+
+
+def _along_stroke(fit: Fit, total: float) -> tuple[str | None, float]:
+    """The part of the stroke with the largest error, in words, and its ratio to the `total`.
+
+    The smaller ratio of both halves of the time: a place has its error whenever it is passed.
+    """
+    r = fit.recording
+    stroke = stroke_constants(r)
+    if r.position is None or r.averaged or not stroke:
+        return None, WORSE
+    along = (r.position - stroke["position_start"]) / stroke["position_length"]
+    if stroke["position_periodic"]:
+        along = along % 1.0
+    part = np.clip((along * PARTS).astype(np.intp), 0, PARTS - 1)
+    rows = np.flatnonzero(r.moving & ~fit.transient)
+    ratios = []
+    for half in np.array_split(rows, 2):
+        count = np.bincount(part[half], minlength=PARTS)
+        square = np.bincount(part[half], fit.held_out_residual[half] ** 2, PARTS)
+        level = np.sqrt(square / np.maximum(count, 1)) / total
+        ratios.append(np.where(count >= FEWEST_ROWS, level, 0.0))
+    level = np.minimum(*ratios)
+    worst = int(np.argmax(level))
+    if not level[worst] > WORSE:
+        return None, WORSE
+    ends = (
+        stroke["position_start"] + stroke["position_length"] * np.array([worst, worst + 1]) / PARTS
+    )
+    low, high = (number(float(end)) for end in ends)
+    return f"between {low} and {high} {fit.model.position_unit}", float(level[worst])
