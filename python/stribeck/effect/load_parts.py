@@ -19,8 +19,10 @@ from stribeck.recording.derive import Smoother
 from stribeck.recording.mend.load_of_motion import slow_cutoff
 from stribeck.recording.recording import Recording
 
-#: Share of the load torque that counts as none of it: filters and errors of position leave less.
-NEGLIGIBLE = 0.1
+#: Share of the load torque from which on a torque is a part of it.
+PART = 0.03
+#: Share that the parts may leave of it: filters and errors of the position leave less.
+REST = 0.1
 #: Cosine of the angle between two weights from which on they are parallel.
 PARALLEL = 0.98
 #: The effect that is a scale of the load torque.
@@ -63,8 +65,7 @@ class LoadParts:
             recording.kept["load parts"] = _split(recording)
         rest, inertia, gravity, offset, cosine, sine = map(float, recording.kept["load parts"])
         shares = {"inertia": inertia, "gravity": gravity, "offset": offset}
-        all_of_it = rest <= NEGLIGIBLE
-        effects = (name for name, share in shares.items() if all_of_it and share > NEGLIGIBLE)
+        effects = (name for name, share in shares.items() if rest <= REST and share > PART)
         return cls(tuple(effects), (cosine, sine))
 
 
@@ -73,10 +74,11 @@ def absorbed(effect: str, model: Model, recording: Recording) -> Obstacle | None
     others = _others(HOLDS.get(effect, effect), recording)
     if not others or not all(_has(model, other) for other in others):
         return None
+    are = "is" if len(others) == 1 else "are"
     return Obstacle(
-        f"{' and '.join(others)} are in the model, and the load torque holds no more than the "
+        f"{' and '.join(others)} {are} in the model, and the load torque holds no more than the "
         "torque of an inertia and a weight: a common scale of load torque and friction is "
-        "indistinguishable from these",
+        "indistinguishable from an error of these",
         "add a load that is known from a weighing, or measure the torque constant",
     )
 

@@ -80,6 +80,15 @@ def test_without_a_weight_either_may_be_the_cause(effect: str, tmp_path: Path) -
     assert step.finding.confidence <= 0.5
 
 
+@pytest.mark.slow
+def test_a_wrong_scale_of_both_is_named_as_a_tie(tmp_path: Path) -> None:
+    """A torque constant that is wrong by 8 %, or a mass: both are wrong by that share."""
+    found = sb.improve("coulomb", record(tmp_path, loaded(0.08, WEIGHT)), starts=2)
+    for step in found.steps:
+        named = {step.finding.effect, *step.finding.indistinguishable_from}
+        assert "gain" in named and step.finding.confidence <= 0.5
+
+
 def test_a_gain_is_not_tried_beside_both(tmp_path: Path) -> None:
     """The filter of a load torque may fit better where half of it is that of another inertia."""
     fitted = sb.fit("coulomb+inertia+gravity", record(tmp_path, loaded(0.1, WEIGHT)), starts=1)

@@ -33,6 +33,7 @@ from stribeck.diagnosis.trials.proxies import alike, fits_exactly
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial, tie_weight, try_effect
 from stribeck.effect.describe import is_drive_train, is_friction
+from stribeck.effect.load_parts import SCALE
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
@@ -82,8 +83,10 @@ def _settled(
         for name in possible
     }
     left = {name: weight for name, weight in weights.items() if weight >= tie_weight(TIE)}
+    # These are the same torque, however their errors differ behind different filters.
+    most = 1.0 / (1.0 + sum(SCALE in (name, finding.effect) for name in unknown))
     if set(left) == set(finding.indistinguishable_from):
-        return finding
+        return finding if finding.weight <= most else replace(finding, weight=most)
     if set(left) >= set(finding.indistinguishable_from):
         share = sum(weight for name, weight in left.items() if name not in ties)
         weight = finding.weight / (1.0 + share)
@@ -92,7 +95,7 @@ def _settled(
     else:
         left = {**dict.fromkeys(ties, 1.0), **left}
         weight = finding.weight
-    return replace(finding, weight=weight, indistinguishable_from=tuple(left))
+    return replace(finding, weight=min(weight, most), indistinguishable_from=tuple(left))
 
 
 def _beside_measurement(finding: Finding, current: Fit, seed: int) -> Finding:
