@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import polars as pl
@@ -10,6 +13,11 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.measurement.other_acceleration import OTHER_ACCELERATION
 from stribeck.diagnosis.measurement.table import CAUSES, measurement_columns
+from stribeck.diagnosis.plausibility.rules import DEMOTED
+from stribeck.diagnosis.trials import imitations
+from stribeck.diagnosis.trials.imitations import NARROW
+from stribeck.diagnosis.trials.sifting import Sifted
+from stribeck.diagnosis.trials.trial import TIE, Trial
 from stribeck.effect.describe import is_friction
 from synthetic import COULOMB, joint, motion, record
 
@@ -58,3 +66,61 @@ def test_steady_speeds_have_no_time(tmp_path: Path) -> None:
     points = record(tmp_path, frame, average="run")
     found = measurement_columns(sb.fit("coulomb", points))
     assert list(found) == ["a torque on a wrong scale", "a torque channel with a step at zero"]
+
+
+@dataclass(frozen=True)
+class Rival:
+    """A cause in the measurement that leaves a larger error by so many standard errors."""
+
+    better: float
+
+    def only(self, what: str) -> Rival:
+        return self
+
+    def let_stand(self, *_: object) -> bool:
+        """What is added to it is significant."""
+        return True
+
+    def advantage(self, trial: Trial) -> float:
+        return self.better
+
+    def share_of(self, trial: Trial) -> float:
+        return 0.0
+
+    @property
+    def largest(self) -> str:
+        return "a filter"
+
+
+@pytest.mark.parametrize(
+    ("effect", "better", "stands", "most"),
+    [
+        ("inertia", 1.5, True, 1.0),
+        ("inertia", 0.5, False, None),
+        ("inertia", -4.0, False, None),
+        ("elasticity", 1.5, True, 1.0),
+        ("elasticity", 0.5, False, None),
+        # A late torque is a cause in the measurement itself.
+        ("delay", 0.5, True, 1.0),
+    ],
+)
+def test_what_acts_in_the_joint_predicts_better_than_its_imitations(
+    effect: str, better: float, stands: bool, most: float | None
+) -> None:
+    trial = cast("Trial", SimpleNamespace(effect=effect))
+    sift = imitations._other_judged(Sifted((trial,)), trial, cast("Any", Rival(better)), 1, 0.01)
+    assert (trial in sift.stand) is stands
+    assert len(sift.demoted) == (0.0 < better < 1.0 and not stands)
+    assert len(sift.refused) == (better < -TIE)
+    if most is not None:
+        assert sift.most.get(effect, 1.0) == most
+
+
+@pytest.mark.parametrize(
+    ("better", "most"), [(1.5, 1.0), (0.5, NARROW), (-1.5, NARROW), (-2.5, DEMOTED)]
+)
+def test_a_drive_train_is_no_surer_than_all_causes_together_leave_it(
+    better: float, most: float
+) -> None:
+    trial = cast("Trial", SimpleNamespace(effect="elasticity"))
+    assert imitations._most_certain(trial, cast("Any", Rival(better))) == most

@@ -30,6 +30,7 @@ from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST, TIE, Trial
 from stribeck.effect.describe import is_drive_train, is_friction
+from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids, simpler_effect
 
@@ -173,16 +174,16 @@ def _explained(trial: Trial, rivals: _Rivals, better: float) -> Sifted:
 def _other_judged(sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float) -> Sifted:
     """The same, with an effect that is no friction judged beside the causes that look like it.
 
-    An effect of the drive train must predict better than each of them, and is not certain where a
-    load torque of another acceleration explains much of what it does.
+    One that acts in the joint must predict better than each of them. An effect of the drive train
+    is not certain where a load torque of another acceleration explains much of what it does.
     """
     alone = {what: one for what in imitating(trial.effect) if (one := rivals.only(what))}
-    drive_train = is_drive_train(trial.effect)
+    in_joint = of_catalog(trial.effect).in_motion != "measurement"
     for one in alone.values():
         better = one.advantage(trial)
-        if not one.let_stand(trial, tried, least) or (drive_train and better <= SIMPLEST):
+        if not one.let_stand(trial, tried, least) or (in_joint and better <= SIMPLEST):
             return sift.instead(trial, _explained(trial, one, better))
-    if not drive_train:
+    if not is_drive_train(trial.effect):
         return sift
     other = alone.get(OTHER_ACCELERATION.what)
     if other is not None and other.share_of(trial) >= MUCH:
