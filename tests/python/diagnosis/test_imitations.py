@@ -70,9 +70,13 @@ def test_steady_speeds_have_no_time(tmp_path: Path) -> None:
 
 @dataclass(frozen=True)
 class Rival:
-    """A cause in the measurement that leaves a larger error by so many standard errors."""
+    """A cause in the measurement that leaves a larger error by so many standard errors.
+
+    It explains a `share` of what an effect does.
+    """
 
     better: float
+    share: float = 0.0
 
     def only(self, what: str) -> Rival:
         return self
@@ -85,7 +89,7 @@ class Rival:
         return self.better
 
     def share_of(self, trial: Trial) -> float:
-        return 0.0
+        return self.share
 
     @property
     def largest(self) -> str:
@@ -114,6 +118,26 @@ def test_what_acts_in_the_joint_predicts_better_than_its_imitations(
     assert len(sift.refused) == (better < -TIE)
     if most is not None:
         assert sift.most.get(effect, 1.0) == most
+
+
+@pytest.mark.parametrize(
+    ("effect", "share", "stands"),
+    [
+        ("inertia", 0.4, True),
+        ("inertia", 0.6, False),
+        ("elasticity", 0.4, True),
+        ("elasticity", 0.6, False),
+        ("delay", 0.6, True),
+    ],
+)
+def test_what_a_load_torque_of_another_acceleration_mostly_explains_is_in_doubt(
+    effect: str, share: float, stands: bool
+) -> None:
+    trial = cast("Trial", SimpleNamespace(effect=effect))
+    rival = cast("Any", Rival(3.0, share))
+    sift = imitations._other_judged(Sifted((trial,)), trial, rival, 1, 0.01)
+    assert (trial in sift.stand) is stands
+    assert [row.trial for row in sift.demoted] == ([] if stands else [trial])
 
 
 @pytest.mark.parametrize(

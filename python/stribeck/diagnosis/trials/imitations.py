@@ -39,7 +39,7 @@ ZERO = "a zero of the torque that is off"
 #: The highest confidence of an effect that predicts better than the causes in the measurement by no
 #: more than one standard error: about as often it is right on simulated recordings.
 NARROW = 0.95
-#: Share of what an effect of the drive train explains from which on another cause puts it in doubt.
+#: Share of what an effect explains from which on another cause puts it in doubt.
 MUCH = 0.5
 
 
@@ -174,8 +174,8 @@ def _explained(trial: Trial, rivals: _Rivals, better: float) -> Sifted:
 def _other_judged(sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least: float) -> Sifted:
     """The same, with an effect that is no friction judged beside the causes that look like it.
 
-    One that acts in the joint must predict better than each of them. An effect of the drive train
-    is not certain where a load torque of another acceleration explains much of what it does.
+    One that acts in the joint must predict better than each of them, and is in doubt where a load
+    torque of another acceleration explains much of what it does.
     """
     alone = {what: one for what in imitating(trial.effect) if (one := rivals.only(what))}
     in_joint = of_catalog(trial.effect).in_motion != "measurement"
@@ -183,12 +183,12 @@ def _other_judged(sift: Sifted, trial: Trial, rivals: _Rivals, tried: int, least
         better = one.advantage(trial)
         if not one.let_stand(trial, tried, least) or (in_joint and better <= SIMPLEST):
             return sift.instead(trial, _explained(trial, one, better))
+    other = alone.get(OTHER_ACCELERATION.what)
+    if in_joint and other is not None and other.share_of(trial) >= MUCH:
+        reason = f"{OTHER_ACCELERATION.what} explains much of what it does"
+        return sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
     if not is_drive_train(trial.effect):
         return sift
-    other = alone.get(OTHER_ACCELERATION.what)
-    if other is not None and other.share_of(trial) >= MUCH:
-        reason = f"{OTHER_ACCELERATION.what} looks like a drive train that twists"
-        return sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
     return sift.narrowed(trial, _most_certain(trial, rivals))
 
 
