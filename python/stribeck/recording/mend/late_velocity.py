@@ -88,30 +88,35 @@ def torque_follows(
     moving = (speeds > threshold) & (np.abs(derived.velocity) > slowest)
     if torque is None or not moving.any():
         return False
-    shifted = _shifted(torque, segment)[moving]
-    by_derived, by_recorded = (_left(data, shifted, x, moving) for x in (derived, recorded))
-    return bool(by_derived[REACH] < by_recorded[REACH] or by_derived.min() < by_recorded.min())
+    by_derived, by_recorded = (
+        _left(data, torque, segment, motion, moving) for motion in (derived, recorded)
+    )
+    return by_derived[REACH] < by_recorded[REACH] or min(by_derived) < min(by_recorded)
 
 
-def _shifted(torque: Floats, segment: Ints) -> Floats:
-    """The torque [n, k] as it is so many samples before and after, in the same segment."""
-    rows = np.arange(torque.size)[:, None] + np.arange(-REACH, REACH + 1)
-    rows = np.clip(rows, 0, torque.size - 1)
-    here = np.broadcast_to(torque[:, None], rows.shape)
-    return np.where(segment[rows] == segment[:, None], torque[rows], here)
-
-
-def _left(data: Channels, torques: Floats, motion: Moved, moving: Bools) -> Floats:
-    """Sums of squares [k] that the ordinary model of a motion leaves of these torques [m, k]."""
+def _left(
+    data: Channels, torque: Floats, segment: Ints, motion: Moved, moving: Bools
+) -> list[float]:
+    """Sums of squares that the ordinary model of a motion leaves of the torque, at each shift."""
     q, v = data.values["position"], motion.velocity
     columns = [np.sign(v), v, motion.acceleration, np.sin(q), np.cos(q), np.ones_like(v)]
     if "load_torque" in data.values:
         columns.append(data.values["load_torque"])
     matrix = np.column_stack(columns)[moving]
     matrix = matrix / np.maximum(np.linalg.norm(matrix, axis=0), np.finfo(float).tiny)
-    own, rights = matrix.T @ matrix, torques.T @ matrix
-    explained = np.array([right @ linear.least_norm(own, right) for right in rights])
-    return np.asarray(np.sum(torques**2, axis=0) - explained)
+    own = matrix.T @ matrix
+    left = []
+    for shift in range(-REACH, REACH + 1):
+        shifted = _shifted(torque, segment, shift)[moving]
+        right = matrix.T @ shifted
+        left.append(float(shifted @ shifted - right @ linear.least_norm(own, right)))
+    return left
+
+
+def _shifted(torque: Floats, segment: Ints, rows: int) -> Floats:
+    """The torque [n] so many samples later; as it is where that is in another segment."""
+    at = np.clip(np.arange(torque.size) + rows, 0, torque.size - 1)
+    return np.where(segment[at] == segment, torque[at], torque)
 
 
 def note(lag: float, period: float) -> str:
