@@ -19,7 +19,7 @@ from stribeck.recording.derive import Smoother
 from stribeck.recording.mend.load_of_motion import slow_cutoff
 from stribeck.recording.recording import Recording
 
-#: Share of the load torque from which on a torque is a part of it.
+#: Share of what varies of the load torque from which on a torque is a part of it.
 PART = 0.03
 #: Share that the parts may leave of it: filters and errors of the position leave less.
 REST = 0.1
@@ -117,7 +117,10 @@ def _is_parallel(effect: str, after: Identified) -> bool:
 
 
 def _split(r: Recording) -> Array:
-    """Shares of the load torque: the rest, inertia, weight and constant; the weight's factors."""
+    """Shares of what varies of the load torque, and the factors of its weight, array [6].
+
+    The shares of what is left of it, and of its inertia, weight and constant.
+    """
     none = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
     load, acceleration, rows = r.load_torque, r.acceleration, r.moving
     if load is None or acceleration is None or r.averaged or not rows.any():
@@ -128,7 +131,7 @@ def _split(r: Recording) -> Array:
         shapes += [np.cos(r.position), np.sin(r.position)]
     columns = np.column_stack([slow.smooth(shape) for shape in shapes])[rows]
     whole = slow.smooth(load)[rows]
-    size = float(np.sqrt(np.mean(whole**2)))
+    size = float(np.std(whole))
     if not size > 0.0:
         return none
     factors = linear.least_norm(columns, whole)

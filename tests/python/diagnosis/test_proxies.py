@@ -58,4 +58,5 @@ def test_a_wrong_gain_is_one_beside_a_wrong_zero(tmp_path: Path) -> None:
     trial = Trial("gain", after, evidence(before, after))
     assert [kept.effect for kept in without_proxies(before, [trial])] == ["gain"]
     found = sb.improve("coulomb", recording, starts=1)
-    assert [step.finding.effect for step in found.steps] == ["gain", "offset"]
+    # A saturation shows nearly as much of both at first, so that either may come first.
+    assert {step.finding.effect for step in found.steps} == {"gain", "offset"}
