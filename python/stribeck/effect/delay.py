@@ -36,7 +36,7 @@ def _where(before: Identified, after: Identified) -> str:
     if tau < 0.0 and late.lag <= -tau * ALIKE:
         return f"{said}, which explains it"
     behind = late.lag + tau
-    return f"{said}: the torque {_way(behind)} that by {number(1e3 * abs(behind))} ms"
+    return f"{said}; the torque {_way(behind)} the position by {number(1e3 * abs(behind))} ms"
 
 
 def _way(tau: float) -> str:

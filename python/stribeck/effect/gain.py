@@ -85,7 +85,7 @@ def _alike(before: Identified, after: Identified) -> tuple[str, ...]:
     direction of the load, whether the joint drives it or is driven. An inertia or a weight is
     another, where the load torque is no more than its torque.
     """
-    rigid = alike("gain", after)
+    rigid = alike("gain", before, after)
     if "quadrant" in after.model.effects:
         return rigid
     facts = RecordingFacts.of(after.recording, after.load)

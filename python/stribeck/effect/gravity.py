@@ -87,5 +87,5 @@ EFFECT = Effect(
     plausible=_plausible,
     fixed_form=FixedForm("position", _functions_of_position, _alike),
     absorbed=partial(absorbed, "gravity"),
-    alike=lambda before, after: alike("gravity", after),
+    alike=partial(alike, "gravity"),
 )

@@ -62,5 +62,5 @@ EFFECT = Effect(
     plausible=_plausible,
     fixed_form=FixedForm("acceleration", _functions_of_acceleration),
     absorbed=partial(absorbed, "inertia"),
-    alike=lambda before, after: alike("inertia", after),
+    alike=partial(alike, "inertia"),
 )

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.base import linear
-from stribeck.effect.base import Array, Identified, Obstacle
+from stribeck.effect.base import Identified, Obstacle
 from stribeck.models.model import Model
-from stribeck.recording.derive import Smoother
-from stribeck.recording.mend.load_of_motion import slow_cutoff
+from stribeck.recording.mend.load_of_motion import slow_motion
 from stribeck.recording.recording import Recording
 
 #: Share of what varies of the load torque from which on a torque is a part of it.
@@ -27,6 +26,8 @@ REST = 0.1
 PARALLEL = 0.98
 #: The effect that is a scale of the load torque.
 SCALE = "gain"
+#: The effects that may be parts of it.
+EFFECTS = ("inertia", "gravity", "offset")
 #: Effects whose torque of position holds that of another.
 HOLDS = {"spring": "gravity"}
 
@@ -61,12 +62,11 @@ class LoadParts:
         >>> parts(2.0 * a), parts(2.0 * a + 5.0 * np.cos(q)), parts(2.0 * a + 5.0 * (t > 7.0))
         (('inertia',), ('inertia', 'gravity'), ())
         """
-        if "load parts" not in recording.kept:
-            recording.kept["load parts"] = _split(recording)
-        rest, inertia, gravity, offset, cosine, sine = map(float, recording.kept["load parts"])
-        shares = {"inertia": inertia, "gravity": gravity, "offset": offset}
-        effects = (name for name, share in shares.items() if rest <= REST and share > PART)
-        return cls(tuple(effects), (cosine, sine))
+        if "load parts" not in recording.remembered:
+            recording.remembered["load parts"] = _split(recording)
+        split = recording.remembered["load parts"]
+        effects = (e for e in EFFECTS if split["rest"] <= REST and split[e] > PART)
+        return cls(tuple(effects), (split["cosine"], split["sine"]))
 
 
 def absorbed(effect: str, model: Model, recording: Recording) -> Obstacle | None:
@@ -83,7 +83,7 @@ def absorbed(effect: str, model: Model, recording: Recording) -> Obstacle | None
     )
 
 
-def alike(effect: str, after: Identified) -> tuple[str, ...]:
+def alike(effect: str, _: Identified, after: Identified) -> tuple[str, ...]:
     """The effects that in the place of `effect` would scale the load torque alike.
 
     Each of an inertia, a weight and a gain is the sum of the others: beside all but one of these,
@@ -116,16 +116,16 @@ def _is_parallel(effect: str, after: Identified) -> bool:
     return size > 0.0 and abs(float(found @ given)) >= PARALLEL * size
 
 
-def _split(r: Recording) -> Array:
-    """Shares of what varies of the load torque, and the factors of its weight, array [6].
+def _split(r: Recording) -> dict[str, float]:
+    """Shares of what varies of the load torque, of each effect and the rest; the weight's factors.
 
-    The shares of what is left of it, and of its inertia, weight and constant.
+    All of it is the rest where it cannot be split.
     """
-    none = np.array([1.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    split = {"rest": 1.0, **dict.fromkeys((*EFFECTS, "cosine", "sine"), 0.0)}
     load, acceleration, rows = r.load_torque, r.acceleration, r.moving
     if load is None or acceleration is None or r.averaged or not rows.any():
-        return none
-    slow = Smoother(r.time, r.segment, slow_cutoff(r.time, r.velocity, r.segment))
+        return split
+    slow = slow_motion(r.time, r.velocity, r.segment)
     shapes = [acceleration, np.ones_like(load)]
     if r.position is not None and r.joint_kind == "revolute":
         shapes += [np.cos(r.position), np.sin(r.position)]
@@ -133,11 +133,15 @@ def _split(r: Recording) -> Array:
     whole = slow.smooth(load)[rows]
     size = float(np.std(whole))
     if not size > 0.0:
-        return none
+        return split
     factors = linear.least_norm(columns, whole)
-    weight = factors[2:] if factors.size > 2 else np.zeros(2)
-    # A constant belongs to a weight that hardly turns.
-    parts = [columns[:, 0] * factors[0], columns[:, 2:] @ factors[2:], columns[:, 1] * factors[1]]
-    parts[1] = parts[1] - parts[1].mean()
-    torques = [whole - columns @ factors, *parts]
-    return np.array([*(float(np.sqrt(np.mean(x**2))) / size for x in torques), *weight])
+    weight = columns[:, 2:] @ factors[2:]
+    torques = {
+        "rest": whole - columns @ factors,
+        "inertia": columns[:, 0] * factors[0],
+        # A constant belongs to a weight that hardly turns.
+        "gravity": weight - weight.mean(),
+        "offset": columns[:, 1] * factors[1],
+    }
+    split |= {name: float(np.sqrt(np.mean(x**2))) / size for name, x in torques.items()}
+    return split | dict(zip(("cosine", "sine"), map(float, factors[2:]), strict=False))

@@ -15,6 +15,7 @@ __all__ = [
     "MANY_RUNS",
     "SIGMAS",
     "held_out_blocks",
+    "neighbour",
     "noise_level",
     "quantisation_step",
     "segment_rows",
@@ -84,6 +85,12 @@ def segment_slices(segment: Ints) -> list[slice]:
     edges = np.flatnonzero(np.diff(segment)) + 1
     bounds = np.concatenate(([0], edges, [len(segment)]))
     return [slice(int(a), int(b)) for a, b in itertools.pairwise(bounds) if b > a]
+
+
+def neighbour(values: Floats, segment: Ints, rows: int) -> Floats:
+    """`values` [n] so many `rows` later; the same value beyond the end of a segment."""
+    at = np.clip(np.arange(values.size) + rows, 0, values.size - 1)
+    return np.where(segment[at] == segment, values[at], values)
 
 
 def quantisation_step(values: Floats) -> float:

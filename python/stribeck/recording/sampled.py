@@ -19,7 +19,7 @@ from stribeck.recording.derived_motion import (
 from stribeck.recording.joint_units import natural_unit
 from stribeck.recording.loads import Loads, measured_torque, rigid_body_load
 from stribeck.recording.mend.late_velocity import Moved, late, note, torque_follows
-from stribeck.recording.mend.load_of_motion import differing, slow_cutoff
+from stribeck.recording.mend.load_of_motion import differing, slow_motion
 from stribeck.recording.mend.load_of_motion import note as load_note
 from stribeck.recording.mend.load_of_motion import torque_follows as follows_motion
 from stribeck.recording.recording import Column, Recording
@@ -171,7 +171,7 @@ def _of_motion(
     position = motion.position if layout.joint_kind == "revolute" else None
     alike = load if smoothers.acceleration is None else smoothers.acceleration.smooth(load)
     time, segment = smoothers.velocity.time, smoothers.velocity.segment
-    slow = Smoother(time, segment, slow_cutoff(time, motion.velocity, segment))
+    slow = slow_motion(time, motion.velocity, segment)
     found = differing(alike, motion.acceleration, position, moving, slow.smooth)
     if found is None:
         return load

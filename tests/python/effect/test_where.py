@@ -80,8 +80,8 @@ def test_an_amplifier_that_warms_up_beside_a_gain_is_compared_with_its_end(spec:
     ("filtered", "delay", "said"),
     [
         (0.018, -0.008, ", as behind a filter, which explains it"),
-        (0.018, 0.008, ", as behind a filter: the torque lags behind that by 16 ms"),
-        (0.018, -0.003, ", as behind a filter: the torque lags behind that by 4.99 ms"),
+        (0.018, 0.008, ", as behind a filter; the torque lags behind the position by 16 ms"),
+        (0.018, -0.003, ", as behind a filter; the torque lags behind the position by 4.99 ms"),
         (0.01, -0.008, ""),
     ],
 )

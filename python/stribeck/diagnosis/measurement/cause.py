@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_row
-from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
@@ -51,9 +50,3 @@ def load_of(fit: Fit) -> Array:
     """Load torque [n], recorded or identified; zero where the model has none."""
     load = fit.load_torque
     return np.zeros_like(fit.prediction) if load is None else load
-
-
-def neighbour(recording: Recording, values: Array, rows: int) -> Array:
-    """`values` [n] so many `rows` later; the same value beyond the end of a segment."""
-    at = np.clip(np.arange(values.size) + rows, 0, values.size - 1)
-    return np.where(recording.segment[at] == recording.segment, values[at], values)

@@ -7,8 +7,9 @@ which is smooth, the first two terms of the series in the lag.
 
 from __future__ import annotations
 
-from stribeck.diagnosis.measurement.cause import Array, MeasurementCause, load_of, neighbour
+from stribeck.diagnosis.measurement.cause import Array, MeasurementCause, load_of
 from stribeck.fitting.result import Fit
+from stribeck.recording.rows import neighbour
 
 #: Largest distance in samples.
 REACH = 5
@@ -21,9 +22,13 @@ def _columns(fit: Fit) -> list[Array]:
     load = load_of(fit)
     friction = fit.prediction - load
     distances = (k for k in range(-REACH, REACH + 1) if k)
-    made = [neighbour(r, friction, k) - friction for k in distances]
-    rate = (neighbour(r, load, 1) - neighbour(r, load, -1)) / 2
-    return [*made, rate, (neighbour(r, rate, 1) - neighbour(r, rate, -1)) / 2]
+    made = [neighbour(friction, r.segment, k) - friction for k in distances]
+
+    def difference(values: Array) -> Array:
+        return (neighbour(values, r.segment, 1) - neighbour(values, r.segment, -1)) / 2
+
+    rate = difference(load)
+    return [*made, rate, difference(rate)]
 
 
 LATE_CHANNELS = MeasurementCause("a filter or lag of a channel", _columns)

@@ -12,7 +12,7 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 from stribeck.recording.derive import Smoother
 from stribeck.recording.derived_motion import acceleration_cutoff
-from stribeck.recording.mend.load_of_motion import differing, slow_cutoff
+from stribeck.recording.mend.load_of_motion import differing, slow_motion
 from stribeck.recording.recording import Recording
 
 #: Least difference, as a share of the load torque.
@@ -33,7 +33,7 @@ def _columns(fit: Fit) -> list[Array]:
 def _lacking(r: Recording, load: Array, acceleration: Array) -> Array:
     """What the torque lacks of a load torque [n]; zero where that is the motion's."""
     position = r.position if r.joint_kind == "revolute" else None
-    slow = Smoother(r.time, r.segment, slow_cutoff(r.time, r.velocity, r.segment))
+    slow = slow_motion(r.time, r.velocity, r.segment)
     found = differing(_as_smooth(r, load), acceleration, position, r.moving, slow.smooth)
     return np.zeros_like(load) if found is None else -found.torque
 

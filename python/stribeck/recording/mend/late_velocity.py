@@ -18,6 +18,7 @@ from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.channels import Channels
 from stribeck.recording.consistency.follow import Track, follows
 from stribeck.recording.consistency.remedy import PHASE
+from stribeck.recording.rows import neighbour
 from stribeck.recording.velocity_lag import velocity_lag
 
 __all__ = ["Moved", "late", "note", "torque_follows"]
@@ -107,16 +108,10 @@ def _left(
     own = matrix.T @ matrix
     left = []
     for shift in range(-REACH, REACH + 1):
-        shifted = _shifted(torque, segment, shift)[moving]
+        shifted = neighbour(torque, segment, shift)[moving]
         right = matrix.T @ shifted
         left.append(float(shifted @ shifted - right @ linear.least_norm(own, right)))
     return left
-
-
-def _shifted(torque: Floats, segment: Ints, rows: int) -> Floats:
-    """The torque [n] so many samples later; as it is where that is in another segment."""
-    at = np.clip(np.arange(torque.size) + rows, 0, torque.size - 1)
-    return np.where(segment[at] == segment, torque[at], torque)
 
 
 def note(lag: float, period: float) -> str:

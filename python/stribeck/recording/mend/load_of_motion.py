@@ -16,9 +16,9 @@ import numpy as np
 from stribeck.base import linear
 from stribeck.base.errors import option
 from stribeck.recording.arrays import Bools, Floats, Ints
-from stribeck.recording.derive import motion_band
+from stribeck.recording.derive import Smoother, motion_band
 
-__all__ = ["Differing", "differing", "note", "slow_cutoff", "torque_follows"]
+__all__ = ["Differing", "differing", "note", "slow_motion", "torque_follows"]
 
 #: Motion that any controller follows, in bands of the motion.
 _SLOW = 2.0
@@ -73,10 +73,10 @@ def differing(
     return Differing(inertia, rest - gravity @ linear.least_norm(gravity[moving], rest[moving]))
 
 
-def slow_cutoff(time: Floats, velocity: Floats, segment: Ints) -> float | None:
-    """Cut-off [Hz] of motion that any controller follows; None where it is too short."""
+def slow_motion(time: Floats, velocity: Floats, segment: Ints) -> Smoother:
+    """A low-pass that leaves motion which any controller follows; none where it is too short."""
     band = motion_band(time, velocity, segment)
-    return None if band is None else _SLOW * band
+    return Smoother(time, segment, None if band is None else _SLOW * band)
 
 
 def _inertia(load: Floats, acceleration: Floats, gravity: Floats, moving: Bools) -> float | None:
