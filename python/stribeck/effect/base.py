@@ -137,6 +137,22 @@ class FixedForm:
     alike: Callable[[Identified], tuple[str, ...]] = lambda _: ()
 
 
+@dataclass(frozen=True)
+class FreeForm:
+    """Friction as any function of what it may depend on.
+
+    Attributes
+    ----------
+    of
+        What it depends on, in words.
+    columns
+        The function, as columns on the samples fitted to, arrays [m].
+    """
+
+    of: str
+    columns: Callable[[Identified], list[Array]]
+
+
 #: What an effect does in a simulated motion.
 InMotion = Literal["acts", "measurement", "drive train"]
 
@@ -193,6 +209,9 @@ class Effect:
     flexible_shape
         Columns on the samples fitted to, arrays [m], that let the effect take any smooth form.
         Before a second cause is claimed, the residual must not be explained by these.
+    free_form
+        The free function of the motion of which the effect is one form; None where a function that
+        explains more would confirm the effect, as one of the load torque does.
     series
         Whether its parameters are the terms of a series, which no sample determines beyond the
         range that it covers.
@@ -246,6 +265,7 @@ class Effect:
     generated_constants: Callable[[GeneratedRecording], dict[str, float]] = _no_constants
     refusal: Callable[[Model, Recording], str | None] = _nothing
     flexible_shape: Callable[[Identified], list[Array]] = _no_columns
+    free_form: FreeForm | None = None
     series: bool = False
     fixed_form: FixedForm | None = None
     size_range: tuple[float, float] | None = None

@@ -14,6 +14,7 @@ from stribeck.effect.base import (
     number,
 )
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.free_form import OF_VELOCITY
 
 
 def one_direction(facts: RecordingFacts) -> Obstacle | None:
@@ -55,4 +56,5 @@ EFFECT = Effect(
     where=_where,
     plausible=_plausible,
     flexible_shape=_flexible_shape,
+    free_form=OF_VELOCITY,
 )

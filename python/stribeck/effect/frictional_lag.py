@@ -15,6 +15,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.columns import delayed
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.free_form import OF_SPEED
 from stribeck.effect.stribeck import SLOW, no_slow_motion
 from stribeck.models.model import Model
 from stribeck.recording.moves import move_seconds, moves
@@ -138,6 +139,7 @@ EFFECT = Effect(
     plausible=_plausible,
     refusal=_without_curve,
     flexible_shape=_flexible_shape,
+    free_form=OF_SPEED,
     size_range=(10.0, 1e-2),
     unresolved=_unresolved,
     out_of_reach=_out_of_reach,

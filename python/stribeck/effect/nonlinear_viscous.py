@@ -16,6 +16,7 @@ from stribeck.effect.base import (
     number,
 )
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.free_form import OF_SPEED
 from stribeck.recording.recording import Recording
 
 #: Ratio of fast to slow speeds from which the curve shows.
@@ -121,5 +122,6 @@ EFFECT = Effect(
     constants=_constants,
     generated_constants=_generated_constants,
     flexible_shape=_flexible_shape,
+    free_form=OF_SPEED,
     out_of_reach=_out_of_reach,
 )

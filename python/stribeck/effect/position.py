@@ -19,6 +19,7 @@ from stribeck.effect.base import (
 from stribeck.effect.columns import half_waves
 from stribeck.effect.direction import one_direction
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.free_form import OF_STROKE_AND_SPEED
 from stribeck.effect.load_along_stroke import friction_by_load
 from stribeck.recording.recording import Recording
 
@@ -142,5 +143,6 @@ EFFECT = Effect(
     generated_constants=_generated_constants,
     series=True,
     flexible_shape=_flexible_shape,
+    free_form=OF_STROKE_AND_SPEED,
     alike=_alike,
 )

@@ -15,6 +15,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.direction import one_direction
 from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.free_form import OF_SPEED
 from stribeck.models.model import Model
 
 #: Slow motion: slower than this share of the top speed.
@@ -125,6 +126,7 @@ EFFECT = Effect(
     where=_where,
     plausible=_plausible,
     flexible_shape=_flexible_shape,
+    free_form=OF_SPEED,
     unresolved=_unresolved,
     out_of_reach=_out_of_reach,
 )

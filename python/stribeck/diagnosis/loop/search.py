@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
-from stribeck.diagnosis.loop.form import OTHER_FORM, of_other_form
+from stribeck.diagnosis.loop.form import of_other_form
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, trials_of
 from stribeck.diagnosis.loop.remainder import REASON, imitations
@@ -214,10 +214,9 @@ class Search:
         yield path
 
     def _other_forms(self, path: ImprovementPath) -> dict[str, str]:
-        """The effects of a path that a free function of the speed explains better, and why."""
+        """The effects of a path that a free function of the motion explains better, and why."""
         findings = [step.finding for step in path.steps]
-        form = of_other_form(findings, path.current, path.last.unexplained, self.seed)
-        return dict.fromkeys(form, OTHER_FORM)
+        return of_other_form(findings, path.current, path.last.unexplained, self.seed)
 
     def _without(
         self, path: ImprovementPath, doubtful: Mapping[str, str]
