@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import polars as pl
 
 from stribeck.effect.base import (
     Array,
@@ -16,20 +15,9 @@ from stribeck.effect.base import (
     number,
 )
 from stribeck.effect.columns import hats
-from stribeck.effect.facts import RecordingFacts, spread
+from stribeck.effect.facts import RecordingFacts
+from stribeck.effect.thermal import one_way
 from stribeck.recording.recording import Recording
-
-#: Temperature range in K below which temperature cannot explain a drift.
-SMALL_SPAN = 1.0
-#: Rank correlation of temperature and time from which they are indistinguishable.
-CORRELATED = 0.9
-
-
-def _rank_correlation(one: Array, other: Array) -> float:
-    """Spearman's rank correlation of two arrays [n]."""
-    ranked = pl.DataFrame({"one": one, "other": other})
-    return float(ranked.select(pl.corr("one", "other", method="spearman")).item())
-
 
 #: What to say of averaged points where the time is needed.
 NO_TIME = Obstacle(
@@ -42,13 +30,9 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     r = facts.recording
     if r.averaged:
         return NO_TIME
-    temperature = facts.scored(r.temperature)
-    if temperature is None or spread(temperature) < SMALL_SPAN:
+    way = one_way(r)
+    if way is None:
         return None
-    correlation = _rank_correlation(r.elapsed[r.moving], temperature)
-    if abs(correlation) <= CORRELATED:
-        return None
-    way = "warms up" if correlation > 0 else "cools down"
     return Obstacle(
         f"the joint only {way}, so that time is indistinguishable from temperature",
         "let the joint cool down and warm up again",

@@ -29,6 +29,8 @@ FEWEST_SLOW_POINTS, ENOUGH_SLOW_POINTS = 5, 2
 #: curve is not seen, and that may be left at the top speed: with more, friction is never seen to
 #: settle, and the curve imitates a bent viscous one.
 LEFT = 0.1
+#: Coulomb friction below this share of the height of the curve is none.
+NO_COULOMB = 0.01
 
 
 def no_slow_motion(facts: RecordingFacts) -> Obstacle | None:
@@ -111,6 +113,16 @@ def _out_of_reach(after: Identified) -> str | None:
     return f"{_falls_around(m)}, and the joint reaches only {number(top)} {m.position_unit}/s"
 
 
+def _alike(_: Identified, after: Identified) -> tuple[str, ...]:
+    """Where no Coulomb friction is left below it, the curve may be one of viscous friction."""
+    m = after.model
+    # With a load the dry friction may be in proportion to that, without a constant part.
+    if "load" in m.effects or not {"coulomb_friction", "stribeck_height"} <= set(m.names):
+        return ()
+    left = m.value("coulomb_friction") / m.value("stribeck_height")
+    return () if left > NO_COULOMB else ("nonlinear_viscous",)
+
+
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:
     return {
         "stribeck_height": 0.35 * joint.coulomb,
@@ -126,6 +138,7 @@ EFFECT = Effect(
     where=_where,
     plausible=_plausible,
     flexible_shape=_flexible_shape,
+    alike=_alike,
     free_form=OF_SPEED,
     unresolved=_unresolved,
     out_of_reach=_out_of_reach,

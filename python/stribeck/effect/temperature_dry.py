@@ -10,6 +10,7 @@ from stribeck.effect.thermal import (
     cold_and_hot,
     functions_of_temperature,
     generated_temperature,
+    one_way,
     reference_temperature,
     temperature_hardly_varies,
 )
@@ -19,10 +20,19 @@ def _where(before: Identified, after: Identified) -> str:
     m = after.model
     cold, hot, at_cold, at_hot = cold_and_hot(after, "dry")
     more = "higher" if at_cold > at_hot else "lower"
-    return (
+    said = (
         f"dry friction is {number(abs(at_cold - at_hot))} {m.load_unit} {more} at "
         f"{number(cold)} degC than at {number(hot)} degC"
     )
+    way = one_way(after.recording)
+    if way is None:
+        return said
+    return f"{said}. The joint only {way}: let it cool down and warm up again to tell it from drift"
+
+
+def _alike(_: Identified, after: Identified) -> tuple[str, ...]:
+    """While a joint only warms up, run-in changes dry friction as the temperature does."""
+    return () if one_way(after.recording) is None else ("drift",)
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:
@@ -44,5 +54,6 @@ EFFECT = Effect(
     constants=reference_temperature,
     generated_constants=generated_temperature,
     flexible_shape=_flexible_shape,
+    alike=_alike,
     design_note=DESIGN_NOTE,
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import polars as pl
 
 from stribeck.effect.base import Array, GeneratedRecording, Identified, Obstacle
 from stribeck.effect.columns import hats
@@ -11,6 +12,10 @@ from stribeck.recording.recording import Recording
 
 #: Temperature range (1st to 99th percentile) in K below which no thermal effect is tested.
 TEMPERATURE_SPAN = 5.0
+#: Temperature range in K below which a thermometer reads no change.
+SMALL_SPAN = 1.0
+#: Rank correlation of temperature and time from which they are indistinguishable.
+CORRELATED = 0.9
 #: Assumed rise of temperature between the two runs of a planned motion, K.
 WARMING = 10.0
 
@@ -32,6 +37,31 @@ def temperature_hardly_varies(facts: RecordingFacts) -> Obstacle | None:
         f"the temperature varies by only {span:.1f} K",
         f"record from cold to warm, at least {TEMPERATURE_SPAN:.0f} K, and cool down again",
     )
+
+
+def one_way(recording: Recording) -> str | None:
+    """How the temperature follows the time, so that neither can be told from the other.
+
+    Either "warms up" or "cools down"; None where it does not.
+
+    Examples
+    --------
+    >>> t = np.linspace(0.0, 60.0, 6001)
+    >>> def joint(temperature):
+    ...     motion = {"position": np.sin(t), "torque": np.cos(t)}
+    ...     return Recording.from_columns(time=t, temperature=temperature, **motion)
+    >>> one_way(joint(20.0 + 10.0 * (1.0 - np.exp(-t / 30.0))))
+    'warms up'
+    >>> one_way(joint(20.0 + 10.0 * np.sin(np.pi * t / 60.0)))
+    """
+    r = recording
+    if r.temperature is None or spread(r.temperature[r.moving]) < SMALL_SPAN:
+        return None
+    both = pl.DataFrame({"time": r.elapsed[r.moving], "temperature": r.temperature[r.moving]})
+    correlation = both.select(pl.corr("time", "temperature", method="spearman")).item()
+    if abs(correlation) <= CORRELATED:
+        return None
+    return "warms up" if correlation > 0 else "cools down"
 
 
 def reference_temperature(recording: Recording) -> dict[str, float]:

@@ -51,6 +51,14 @@ def test_more_structure_than_is_explained_limits_the_part() -> None:
     assert part_explained(0.01, 0.0, Unexplained(None, None)) == 1.0
 
 
+@pytest.mark.parametrize(("drive_train", "part"), [(False, 0.25), (True, 0.6)])
+def test_a_drive_train_has_the_shocks_that_others_may_imitate(
+    drive_train: bool, part: float
+) -> None:
+    remains = Unexplained(0.9, "after changes of the load", 0.9, 0.7)
+    assert part_explained(0.3, 0.9, remains, drive_train=drive_train) == pytest.approx(part)
+
+
 @pytest.fixture(scope="module")
 def fitted(tmp_path_factory: pytest.TempPathFactory) -> sb.Fit:
     """A model beside a gap in the friction curve."""

@@ -8,6 +8,7 @@ from made_fits import Array, Moved, left
 from stribeck.diagnosis.residual import unexplained as module
 from stribeck.diagnosis.residual.explainable import Explainable
 from stribeck.diagnosis.residual.noise_floor import REACHED, NoiseFloor
+from stribeck.diagnosis.residual.shocks import Shocks
 from stribeck.diagnosis.residual.unexplained import (
     FEWEST_ROWS,
     STRUCTURE,
@@ -42,6 +43,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
 
     monkeypatch.setattr(module, "varying_friction", constant)
     monkeypatch.setattr(module, "lasting_square", lambda fit: 0.0)
+    monkeypatch.setattr(module, "shocks", lambda fit: Shocks())
     return kept
 
 
@@ -127,6 +129,17 @@ def test_what_lasts_is_structure_without_a_regressor_and_a_floor(
         "what lasts longer than the noise of a sensor is 20 %"
     )
     # A regressor that finds it says where.
+    assert unexplained(fit, NO_FLOOR, could(0.4)).where == "everywhere"
+
+
+def test_shocks_are_structure_and_say_their_cause(monkeypatch: pytest.MonkeyPatch) -> None:
+    """They are said where they are more than what a regressor finds."""
+    fit = left(Moved(SPEED), FLAT)
+    monkeypatch.setattr(module, "shocks", lambda fit: Shocks(0.3, 0.08, 4.2))
+    said = unexplained(fit, NO_FLOOR, could(0.2))
+    assert said.share == said.shown == said.shocks == 0.3
+    assert said.where is not None and said.where.startswith("in the 80 ms after the load torque")
+    assert "4.2 times that elsewhere" in said.where and "backlash" in said.where
     assert unexplained(fit, NO_FLOOR, could(0.4)).where == "everywhere"
 
 

@@ -15,7 +15,7 @@ from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
-from stribeck.effect.describe import where
+from stribeck.effect.describe import is_drive_train, where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import FROM_NEARBY
@@ -190,7 +190,12 @@ class ImprovementPath:
         for step in self.steps:
             effect = step.finding.effect
             certainty = found.certainty.get(effect, step.finding.certainty)
-            part = part_explained(found.gain.get(effect), unknown, self.last.unexplained)
+            part = part_explained(
+                found.gain.get(effect),
+                unknown,
+                self.last.unexplained,
+                drive_train=is_drive_train(effect),
+            )
             finding = replace(step.finding, certainty=certainty, part=part)
             steps.append(replace(step, finding=finding))
         return replace(self, steps=tuple(steps))

@@ -50,7 +50,9 @@ def unknown_structure(current: Fit, remains: Unexplained) -> float:
     return max(remains.shown - max(1.0 - left, 0.0), 0.0)
 
 
-def part_explained(gain: float | None, unknown: float, remains: Unexplained) -> float:
+def part_explained(
+    gain: float | None, unknown: float, remains: Unexplained, *, drive_train: bool = False
+) -> float:
     """The share that an effect explains of what it and the unknown structure make up, 0..1.
 
     At most `BESIDE_STRUCTURE` where more structure remains than it explains.
@@ -62,10 +64,14 @@ def part_explained(gain: float | None, unknown: float, remains: Unexplained) -> 
         None where it is not known.
     unknown
         `unknown_structure`, of the same error.
+    drive_train
+        Whether the effect is one of the drive train, which does not imitate shocks but has them.
     """
     if gain is None:
         return 1.0
     gain = max(gain, 0.0)
+    if drive_train:
+        unknown = max(unknown - remains.shocks, 0.0)
     part = gain / (gain + unknown) if unknown > 0.0 else 1.0
     is_smaller = remains.is_structure and gain < (remains.share or 0.0)
     return min(part, BESIDE_STRUCTURE) if is_smaller else part

@@ -1,10 +1,11 @@
 """Unexplained structure: how much of the error it is, and where it is largest.
 
-Four kinds of structure can be shown without knowing the cause: what a flexible regressor finds in
+Five kinds of structure can be shown without knowing the cause: what a flexible regressor finds in
 the recorded channels on unseen blocks, friction that varies along the recording in both directions
-alike, a residual that lasts longer than noise, and one far above the noise floor, which repeats
-with the motion. If none shows, the residual counts as noise. The amount of structure follows from
-the noise floor, because a regressor never finds all of it.
+alike, a residual that lasts longer than noise, shocks after the load torque changes its sign, and a
+residual far above the noise floor, which repeats with the motion. If none shows, the residual
+counts as noise. The amount of structure follows from the noise floor, because a regressor never
+finds all of it.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from stribeck.diagnosis.residual.explainable import Explainable
 from stribeck.diagnosis.residual.lasting import lasting_square
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.regimes import regime_rows
+from stribeck.diagnosis.residual.shocks import Shocks, shocks
 from stribeck.diagnosis.residual.varying_friction import VaryingFriction, varying_friction
 from stribeck.effect.base import number
 from stribeck.effect.position import stroke_constants
@@ -59,8 +61,10 @@ class Unexplained:
     where : str
         In words; None where the residual counts as noise.
     shown : float
-        The share that a function of the recorded channels, or friction that varies along the
-        recording, shows. An effect may imitate its cause.
+        The share that a function of the recorded channels, friction that varies along the
+        recording, what lasts, or shocks show. An effect may imitate its cause.
+    shocks
+        The share of shocks, whose cause is in the drive train.
     asked : bool
         False where a brief diagnosis has not looked for it.
     excluded : float
@@ -71,6 +75,7 @@ class Unexplained:
     share: float | None
     where: str | None
     shown: float = 0.0
+    shocks: float = 0.0
     asked: bool = True
     excluded: float = 0.0
 
@@ -120,13 +125,16 @@ def _unexplained(
     varying_share = min(varying.rms**2 / total, 1.0)
     lasting = min(lasting_square(fit) / total, 1.0)
     share = max(learned, varying_share)
-    shown = max(share, lasting)
+    struck = shocks(fit)
+    shown = max(share, lasting, struck.share)
     if shown > STRUCTURE:
-        if share <= STRUCTURE:
+        if struck.share == shown:
+            place = _shocks(struck)
+        elif share <= STRUCTURE:
             place = _lasting(lasting, tested=explained is not None)
         else:
             place = _varying(fit, varying) if varying_share > learned else _place(fit)
-        return Unexplained(max(shown, above), place, shown)
+        return Unexplained(max(shown, above), place, shown, struck.share)
     if explained is None:
         return Unexplained(None, None)
     if not floor.value or floor.is_reached_by(rms(fit.residual[fit.rows])):
@@ -148,6 +156,14 @@ def _lasting(share: float, *, tested: bool) -> str:
     if tested:
         return f"{said}but a flexible regressor finds hardly any of it in the recorded channels"
     return f"{said}and this motion does not tell whether it depends on the recorded channels"
+
+
+def _shocks(struck: Shocks) -> str:
+    return (
+        f"in the {number(1e3 * struck.seconds)} ms after the load torque changes its sign the "
+        f"error is {number(struck.ratio, 2)} times that elsewhere, as in a drive train with lost "
+        f"motion (backlash)"
+    )
 
 
 def _repeated(fit: Fit, floor: float) -> str:

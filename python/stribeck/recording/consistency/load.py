@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from stribeck.base.errors import option
 from stribeck.base.units import find_unit, known_units
 from stribeck.recording.check import Check
@@ -10,6 +12,8 @@ from stribeck.recording.consistency.view import View
 
 __all__ = ["check_load"]
 
+#: Correlation with the acceleration from which a load torque is hardly more than an inertia's.
+_INERTIA = 0.9
 #: The load's coefficient may be off by this factor: gravity models and gains of torque sensors
 #: are worse than units are close to each other (1.36, foot-pounds against newton metres).
 _SCALE = 1.3
@@ -42,6 +46,8 @@ def check_load(view: View) -> Check | None:
     if high < 1.0 / _SCALE or low > _SCALE:
         known = named_ratio(load.value)
         what = f" ({known})" if known else ""
+        if not known and _follows_acceleration(view):
+            what = ", or that lacks an inertia"
         return Check(
             "load_torque",
             False,
@@ -52,6 +58,16 @@ def check_load(view: View) -> Check | None:
     return Check(
         "load_torque", True, f"the torque holds {low:.3g} to {high:.3g} times the load torque"
     )
+
+
+def _follows_acceleration(view: View) -> bool:
+    """Whether the load torque is so much that of an inertia that a missing one scales it."""
+    r = view.recording
+    if r.load_torque is None:
+        return False
+    load, a = r.load_torque[r.moving], r.acceleration_smooth[r.moving]
+    varies = np.ptp(load) > 0.0 and np.ptp(a) > 0.0
+    return bool(varies and np.corrcoef(np.stack([load, a]))[0, 1] > _INERTIA)
 
 
 def _units(view: View, ratio: float) -> str:

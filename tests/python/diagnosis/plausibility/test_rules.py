@@ -285,6 +285,13 @@ def test_a_torque_that_acts_in_one_condition_alone(tmp_path: Path, condition: st
     assert uneven(made(tmp_path, place, "position", "all")) is None
 
 
+def test_a_tight_spot_is_uneven_along_the_stroke(tmp_path: Path) -> None:
+    """It is a function of the position: its waves are wrong in one half of the stroke."""
+    _, q, v, _ = motion()
+    spot = 2.0 * np.exp(-(((q - 0.5) / 0.08) ** 2)) * np.sign(v)
+    assert uneven(made(tmp_path, spot, "position")) is None
+
+
 def test_a_torque_of_twice_the_size_is_claimed(tmp_path: Path) -> None:
     """Effects are not exact: up to three times as large is allowed."""
     _, q, v, _ = motion()

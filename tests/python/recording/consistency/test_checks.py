@@ -223,3 +223,17 @@ def test_a_sidecar_may_trust(write):
     path.with_name(f"{path.name}.sidecar.toml").write_text('kind = "recording"\ntrust = 1\n')
     with pytest.raises(RecordingError, match="trust must be true or false"):
         read(path)
+
+
+@pytest.mark.parametrize("follows", [True, False])
+def test_a_load_torque_that_may_lack_an_inertia(write, follows):
+    """A vertical screw: only the acceleration makes its load torque vary."""
+    frame = joint()
+    a, load = frame["acceleration"].to_numpy(), frame["load_torque"].to_numpy()
+    part = 2.0 * a if follows else 5.0 * np.cos(3.0 * frame["time"].to_numpy())
+    torque = frame["torque"].to_numpy() - load + 1.83 * part
+    frame = frame.with_columns(torque=torque, load_torque=part)
+    recording = read(write(frame), trust=True)
+    said = _check(recording, "load_torque").said
+    assert "times the load torque" in said
+    assert said.endswith("or that lacks an inertia") is follows
