@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.diagnosis.residual.unexplained import STRUCTURE
 from stribeck.effect.describe import physically
 from stribeck.report.channels import torque_name
 from stribeck.report.comparison import noise_floor_sentence
@@ -38,9 +39,6 @@ NO_CLAIM = "Effects lower the held-out error, but none of them can be claimed on
 DEMOTED = "Lowers the held-out error, but this recording does not show it well enough"
 NOT_CLAIMED = "Lowers the held-out error, but cannot be the cause, or need not be"
 ALIKE = "Indistinguishable from each other on this data"
-
-#: Excluded samples that cause more than this share of the squared error are named with a verdict.
-MOST_OF_IT = 0.5
 
 
 def diagnosis_text(diagnosis: Diagnosis) -> str:
@@ -262,9 +260,9 @@ def left_after(diagnosis: Diagnosis) -> str:
 
 
 def left_text(left: Unexplained) -> str:
-    """How much of the error is more than noise, and whether most of it was not judged."""
+    """How much of the error is more than noise, and how much of it was not judged."""
     said = _structure(left)
-    if left.excluded > MOST_OF_IT:
+    if left.excluded > STRUCTURE:
         said += (
             f" Not judged are the samples that the fit excludes (see the notes): they cause "
             f"{percent(left.excluded)} of the squared held-out error of all samples."

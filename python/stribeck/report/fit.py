@@ -20,6 +20,7 @@ from stribeck.report.parameters import (
     open_text,
     parameters_text,
     per_run_text,
+    temperature_text,
 )
 from stribeck.report.recording import file_name, held_out_meaning, scored_sentence
 from stribeck.report.residual import velocity_panel
@@ -79,6 +80,7 @@ def fit_text(fit: Fit) -> str:
         paragraph(search + scored_sentence(r)),
         parameters_text(fit.estimates, fit.errors in INTERVALS) + ("\n" + legend if legend else ""),
         per_run_text(fit.per_run),
+        temperature_text(fit.model),
         open_text(fit.estimates),
         not_identifiable_text(fit.estimates, fit.combinations),
         correlation_text(fit.correlation),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from stribeck.diagnosis.loop.determined import undetermined
+from stribeck.diagnosis.residual.unexplained import STRUCTURE
 from stribeck.effect.describe import physically
 from stribeck.report.diagnosis import (
     doubts_text,
@@ -25,6 +26,7 @@ from stribeck.report.parameters import (
     open_text,
     parameters_text,
     poorly_determined_text,
+    temperature_text,
 )
 from stribeck.report.recording import file_name, held_out_meaning
 
@@ -67,6 +69,7 @@ def improvement_text(improvement: Improvement) -> str:
         paragraph(trend_text(improvement.last.trend), 0),
         f"Final model: {final.model.spec}",
         parameters_text(final.estimates),
+        temperature_text(final.model),
         open_text(final.estimates),
         not_identifiable_text(final.estimates, ()),
         poorly_determined_text(undetermined(final.estimates), improvement.combinations),
@@ -82,6 +85,8 @@ def stopped_sentence(improvement: Improvement) -> str:
     """Why the loop ended."""
     if improvement.stopped == "nothing_passes" and improvement.last.has_doubts:
         return "Stopped: no further effect that lowers the held-out error can be claimed."
+    if improvement.stopped == "noise_floor" and improvement.unexplained.excluded > STRUCTURE:
+        return "The residual of the samples that the fit uses is noise."
     return STOPPED[improvement.stopped]
 
 

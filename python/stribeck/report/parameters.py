@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from stribeck.identify.estimates import Estimate
     from stribeck.identify.information import Information
     from stribeck.identify.matrix import ParameterMatrix
+    from stribeck.models.model import Model
 
 #: Pairs of parameters with a correlation of at least this size are named.
 STRONG = 0.95
@@ -112,6 +113,14 @@ def interval_text(e: Estimate) -> str:
         return MINUS + text if end < 0.0 else text
 
     return f"{shown(e.ci95[0])} to {shown(e.ci95[1])}"
+
+
+def temperature_text(model: Model) -> str:
+    """At which temperature the parameters hold that change with it."""
+    at = model.constants.get("reference_temperature")
+    if at is None:
+        return ""
+    return paragraph(f"Friction that changes with the temperature is given at {at:.1f} degC.", 2, 2)
 
 
 def open_text(estimates: Mapping[str, Estimate]) -> str:

@@ -30,6 +30,7 @@ from stribeck.diagnosis.trials.trial import (
     try_effect,
 )
 from stribeck.effect.describe import is_friction
+from stribeck.effect.load_parts import HOLDS
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids, simpler_effect
 from stribeck.models.formula_law import effect_name
@@ -104,7 +105,8 @@ def exchanges(
 
     def each(place: int) -> _Tried:
         finding = findings[place]
-        several = dict.fromkeys((*_wider(finding, current), *rivals[place]))
+        held = filter(None, [HOLDS.get(finding.effect)])
+        several = dict.fromkeys((*held, *_wider(finding, current), *rivals[place]))
         free = [e for e in several if not _is_in(e, current)]
         allowed = [effect for effect in free if effect_name(effect) not in refused]
         possible = (*_simpler(finding), *allowed)

@@ -67,7 +67,7 @@ def _follows_acceleration(view: View) -> bool:
         return False
     load, a = r.load_torque[r.moving], r.acceleration_smooth[r.moving]
     varies = np.ptp(load) > 0.0 and np.ptp(a) > 0.0
-    return bool(varies and np.corrcoef(np.stack([load, a]))[0, 1] > _INERTIA)
+    return bool(varies and np.atleast_2d(np.corrcoef(load, a))[0, 1] > _INERTIA)
 
 
 def _units(view: View, ratio: float) -> str:
