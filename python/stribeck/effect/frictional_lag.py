@@ -95,7 +95,7 @@ def _flexible_shape(fit: Identified) -> list[Array]:
     return [
         sign * np.exp(-delayed(r, speed, lag * k)[fit.rows] / (slow * width))
         for k in (0.3, 1.0, 2.0)
-        for width in (0.5, 1.5, 4.0)
+        for width in (0.5, 1.5)
     ]
 
 

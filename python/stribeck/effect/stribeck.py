@@ -119,8 +119,8 @@ def _alike(_: Identified, after: Identified) -> tuple[str, ...]:
     # With a load the dry friction may be in proportion to that, without a constant part.
     if "load" in m.effects or not {"coulomb_friction", "stribeck_height"} <= set(m.names):
         return ()
-    left = m.value("coulomb_friction") / m.value("stribeck_height")
-    return () if left > NO_COULOMB else ("nonlinear_viscous",)
+    left, height = m.value("coulomb_friction"), m.value("stribeck_height")
+    return () if left >= NO_COULOMB * height else ("nonlinear_viscous",)
 
 
 def _plausible(joint: JointSizes, _: np.random.Generator) -> dict[str, float]:

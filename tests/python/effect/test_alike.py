@@ -40,13 +40,14 @@ def test_run_in_of_a_joint_that_warms_up_is_not_certainly_temperature(tmp_path: 
     assert step.finding.confidence <= 0.5
 
 
-@pytest.mark.parametrize("coulomb", [0.0, 1.0])
+@pytest.mark.parametrize(("coulomb", "height"), [(0.0, 2.0), (1.0, 2.0), (0.0, 0.0)])
 def test_a_curve_without_coulomb_friction_below_it_may_be_viscous(
-    tmp_path: Path, coulomb: float
+    tmp_path: Path, coulomb: float, height: float
 ) -> None:
+    """A curve without height is none."""
     fitted = sb.fit("coulomb+stribeck", record(tmp_path, joint()), starts=1)
-    values = {"coulomb_friction": coulomb, "stribeck_height": 2.0}
+    values = {"coulomb_friction": coulomb, "stribeck_height": height}
     known = dict(zip(fitted.model.names, fitted.model.values, strict=True)) | values
     model = fitted.model.with_values([float(known[name]) for name in fitted.model.names])
     ties = of_catalog("stribeck").alike(fitted, replace(fitted, model=model))
-    assert ties == (("nonlinear_viscous",) if coulomb == 0.0 else ())
+    assert ties == (("nonlinear_viscous",) if coulomb < height / 100 else ())

@@ -5,8 +5,8 @@ acts in slow motion alone and depends on the position is, on average, friction t
 position. Its torque then has another size where they differ. So has that of a right effect on which
 one acts that is missing too.
 
-The channel that an effect reads is no such condition: it is a function of that one, and where its
-form does not fit exactly, as a series of waves a narrow tight spot, it is wrong in parts of it.
+For a series, such as waves along the stroke, the channel that it reads is no such condition: of a
+narrow tight spot its terms are wrong in one half of the stroke.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 from stribeck.effect.base import number
 from stribeck.effect.describe import is_friction
+from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 from stribeck.identify.added_torque import added_torque_test
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import effect_row
-from stribeck.models.rows import EffectRow
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ def uneven(claim: Claim) -> str | None:
     )
     residual, jacobian = map(problem.weighted, problem.linearise(fit.model.values))
     basis = orthonormal(jacobian)
-    for halves in _all_halves(fit, effect_row(claim.effect)):
+    for halves in _all_halves(fit, claim.effect):
         side = halves.side(claim.torque**2)
         if np.ptp(side) == 0.0:
             continue
@@ -95,10 +95,11 @@ class _Halves:
         return f"its torque is not the same everywhere: {larger} it is {much} that {smaller}"
 
 
-def _all_halves(fit: Fit, effect: EffectRow | None) -> Iterator[_Halves]:
-    """The halves by every channel that the effect does not read."""
+def _all_halves(fit: Fit, effect: str) -> Iterator[_Halves]:
+    """The halves by every channel, of a series without its own."""
     r, rows = fit.recording, fit.rows
-    own = () if effect is None else effect["channels"]
+    row, known = effect_row(effect), find(effect)
+    own = row["channels"] if row is not None and known is not None and known.series else ()
     for channel, values, lower, upper in (
         ("velocity", np.abs(r.velocity), "in slow motion", "in fast motion"),
         ("time", r.elapsed, "in the first part of the recording", "in the last part of it"),
