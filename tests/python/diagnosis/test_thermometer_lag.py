@@ -115,7 +115,13 @@ def test_a_joint_that_only_warms_up_shows_the_effect_of_temperature(
     along = np.sign(v) if effect == "temperature_dry" else v
     frame = joint(-size * (warm - 35.0) * along, rows=rows).with_columns(temperature=warm)
     found = sb.diagnose(sb.fit("coulomb", record(tmp_path, frame), starts=1), brief=True)
-    assert found.findings[0].effect == effect and found.findings[0].confidence > 0.9
+    first = found.findings[0]
+    assert first.effect == effect
+    if effect == "temperature_dry":
+        # Run-in would change dry friction in the same way.
+        assert first.indistinguishable_from == ("drift",) and 0.45 < first.confidence <= 0.5
+    else:
+        assert first.confidence > 0.9
 
 
 def test_the_lag_stays_a_cause_where_friction_depends_on_the_temperature(tmp_path: Path) -> None:
