@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,8 +14,6 @@ Array = NDArray[np.float64]
 
 #: Knots of a free function of the speed, each with as many samples between it and the next.
 KNOTS = 12
-#: Half waves along the stroke, as many as the effect `position` has.
-WAVES = range(1, 9)
 
 
 def _of_speed(fit: Identified) -> list[Array]:
@@ -27,7 +27,7 @@ def _of_velocity(fit: Identified) -> list[Array]:
     return hats(np.abs(fit.recording.velocity[fit.rows]), KNOTS)
 
 
-def _of_stroke_and_speed(fit: Identified) -> list[Array]:
+def _of_stroke_and_speed(waves: int, fit: Identified) -> list[Array]:
     """Friction that varies along the stroke in another way at another speed."""
     if fit.recording.position is None:
         return []
@@ -35,10 +35,14 @@ def _of_stroke_and_speed(fit: Identified) -> list[Array]:
     # The rank of a speed: a change at any speed then shows, however often that speed occurs.
     rank = np.argsort(np.argsort(np.abs(v))) / max(v.size - 1, 1)
     powers = (2.0 * rank - 1.0, (2.0 * rank - 1.0) ** 2)
-    waves = half_waves(fit.recording.position[fit.rows], WAVES)
-    return [np.sign(v) * wave * power for wave in waves for power in powers]
+    along = half_waves(fit.recording.position[fit.rows], range(1, waves + 1))
+    return [np.sign(v) * wave * power for wave in along for power in powers]
+
+
+def of_stroke_and_speed(waves: int) -> FreeForm:
+    """Any function of position and speed, with so many half waves along the stroke."""
+    return FreeForm("position and speed", partial(_of_stroke_and_speed, waves))
 
 
 OF_SPEED = FreeForm("the speed", _of_speed)
 OF_VELOCITY = FreeForm("the velocity", _of_velocity)
-OF_STROKE_AND_SPEED = FreeForm("position and speed", _of_stroke_and_speed)

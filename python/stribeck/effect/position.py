@@ -19,7 +19,7 @@ from stribeck.effect.base import (
 from stribeck.effect.columns import half_waves
 from stribeck.effect.direction import one_direction
 from stribeck.effect.facts import RecordingFacts
-from stribeck.effect.free_form import OF_STROKE_AND_SPEED
+from stribeck.effect.free_form import of_stroke_and_speed
 from stribeck.effect.load_along_stroke import friction_by_load
 from stribeck.recording.recording import Recording
 
@@ -143,6 +143,6 @@ EFFECT = Effect(
     generated_constants=_generated_constants,
     series=True,
     flexible_shape=_flexible_shape,
-    free_form=OF_STROKE_AND_SPEED,
+    free_form=of_stroke_and_speed(WAVES),
     alike=_alike,
 )

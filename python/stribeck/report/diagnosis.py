@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from stribeck.diagnosis.residual.unexplained import STRUCTURE
 from stribeck.effect.describe import physically
 from stribeck.report.channels import torque_name
 from stribeck.report.comparison import noise_floor_sentence
@@ -262,7 +261,7 @@ def left_after(diagnosis: Diagnosis) -> str:
 def left_text(left: Unexplained) -> str:
     """How much of the error is more than noise, and how much of it was not judged."""
     said = _structure(left)
-    if left.excluded > STRUCTURE:
+    if left.is_partial:
         said += (
             f" Not judged are the samples that the fit excludes (see the notes): they cause "
             f"{percent(left.excluded)} of the squared held-out error of all samples."

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from stribeck.diagnosis.loop.determined import undetermined
-from stribeck.diagnosis.residual.unexplained import STRUCTURE
 from stribeck.effect.describe import physically
 from stribeck.report.diagnosis import (
     doubts_text,
@@ -85,7 +84,7 @@ def stopped_sentence(improvement: Improvement) -> str:
     """Why the loop ended."""
     if improvement.stopped == "nothing_passes" and improvement.last.has_doubts:
         return "Stopped: no further effect that lowers the held-out error can be claimed."
-    if improvement.stopped == "noise_floor" and improvement.unexplained.excluded > STRUCTURE:
+    if improvement.stopped == "noise_floor" and improvement.unexplained.is_partial:
         return "The residual of the samples that the fit uses is noise."
     return STOPPED[improvement.stopped]
 

@@ -105,7 +105,7 @@ def exchanges(
 
     def each(place: int) -> _Tried:
         finding = findings[place]
-        held = filter(None, [HOLDS.get(finding.effect)])
+        held = [HOLDS[finding.effect]] if finding.effect in HOLDS else []
         several = dict.fromkeys((*held, *_wider(finding, current), *rivals[place]))
         free = [e for e in several if not _is_in(e, current)]
         allowed = [effect for effect in free if effect_name(effect) not in refused]

@@ -58,7 +58,7 @@ class Shocks:
 def shocks(fit: Fit) -> Shocks:
     """The shocks in the held-out error of `fit`, excluded transients included."""
     r = fit.recording
-    load = r.load_torque if r.load_torque is not None else fit.load
+    load = fit.load_torque
     if load is None or r.averaged:
         return Shocks()
     crossings = _crossings(r, load)

@@ -84,6 +84,11 @@ class Unexplained:
         """Whether the residual is more than noise."""
         return self.share is not None and self.share > STRUCTURE
 
+    @property
+    def is_partial(self) -> bool:
+        """Whether as much of the error as counts as structure is in samples that are not judged."""
+        return self.excluded > STRUCTURE
+
     def to_dict(self) -> dict[str, object]:
         """The JSON of `unexplained`."""
         return {"share": self.share, "where": self.where}
