@@ -87,7 +87,7 @@ class Folder(Output):
 
 
 MODEL = Output("model file")
-PAGE = Output("HTML")
+PAGE = Output("HTML", (".html", ".htm"))
 DESCRIPTION = Output("XML", (".urdf", ".xml"))
 ROBOT = Output("robot file", (".toml",))
 FIGURE = Output("figure", tuple(f".{ending}" for ending in FORMATS))

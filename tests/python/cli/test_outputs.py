@@ -54,6 +54,17 @@ def test_an_output_never_replaces_data(log: Path, words: tuple[str, ...]) -> Non
     assert {path: path.read_bytes() for path in log.parent.iterdir()} == before
 
 
+def test_a_page_is_html_by_its_name_too(log: Path) -> None:
+    page = log.with_name("page.png")
+    words = ["improve", str(log), "--report", str(page)]
+    done = subprocess.run(
+        [sys.executable, "-m", "stribeck", *words], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == f"stribeck: cannot write {page}: its name must end in .html or .htm\n"
+    assert not page.exists()
+
+
 def test_a_model_file_replaces_a_model_file(tmp_path: Path) -> None:
     path = tmp_path / "model.toml"
     sb.model("coulomb", coulomb_friction=1.0, viscous_friction=1.0).save(str(path))
