@@ -73,10 +73,10 @@ def diagnose(
 ) -> Diagnosis:
     """Find the effects that are missing from `fitted`.
 
-    Every effect that the recording can show is added and refitted. It passes if the held-out RMSE
-    falls by at least `least_fall`, if the fall is significant given the autocorrelation of the
-    residual and the number of effects tried, and if the effects already in the model cannot explain
-    the same with a more flexible shape.
+    Every effect that the recording can show is added and refitted. It passes if the held-out RMSE,
+    or that in the band of the motion, falls by at least `least_fall`, if the fall is significant
+    given the autocorrelation of the residual and the number of effects tried, and if the effects
+    already in the model cannot explain the same with a more flexible shape.
 
     Parameters
     ----------
@@ -201,8 +201,15 @@ def _with_remainder(found: Diagnosis, evidence: Tested) -> Diagnosis:
 
 
 def _pair(fitted: Fit, evidence: Tested, floor: NoiseFloor) -> Pair | None:
-    """Two effects that predict only together; None where there are none."""
-    best = best_pair(fitted, evidence.screenings)
+    """Two effects that predict only together; None where there are none.
+
+    Those that pass the test alone, and may not be claimed, are no part of it: what they explain is
+    another cause.
+    """
+    judged = {trial.effect for trial in evidence.passing}
+    best = best_pair(
+        fitted, {e: s for e, s in evidence.screenings.items() if effect_name(e) not in judged}
+    )
     first = None if best is None else try_effect(fitted, evidence.screenings[best.first])
     if best is None or first is None or impossible(Claim(first.effect, fitted, first.fit)):
         return None

@@ -46,6 +46,16 @@ def test_one_event_is_not_everywhere(tmp_path: Path) -> None:
     assert found.fall < 0.01
 
 
+def test_an_effect_below_the_noise_is_large_in_the_band_of_the_motion(tmp_path: Path) -> None:
+    """White noise of 0.12 N m hides an offset of 0.015 N m on all samples, not in the band."""
+    small = record(tmp_path, joint(0.015, rows=6000, noise=0.12), "small")
+    before = sb.fit("coulomb", small, starts=1)
+    found = evidence(before, sb.fit("coulomb+offset", small, starts=1))
+    assert found.fall < 0.01 < found.fall_in_band
+    assert found.is_large(0.01) and not found.is_large(found.fall_in_band + 1e-6)
+    assert [f.effect for f in sb.diagnose(before, brief=True).findings][:1] == ["offset"]
+
+
 def test_difference_is_a_mean_and_its_error(tmp_path: Path) -> None:
     offset = record(tmp_path, joint(0.1), "offset")
     worse, better = sb.fit("coulomb", offset), sb.fit("coulomb+offset", offset)

@@ -73,6 +73,16 @@ def test_the_loop_finds_both(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
+def test_an_offset_and_a_gain_that_hide_each_other(tmp_path: Path) -> None:
+    """An amplifier that warms up explains much of both, and is not claimed: it is steady."""
+    behind = ("load_scale", "sensor_lag")
+    case = Case("one", "closed_loop", ("offset",), 451111000, 5.0, nuisances=behind)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    improved = sb.improve("coulomb", sb.read(tmp_path / "recording.parquet"))
+    assert {"offset", "gain"} <= {step.finding.effect for step in improved.steps}
+
+
+@pytest.mark.slow
 def test_the_lag_of_a_thermometer_is_a_pair_with_what_it_delays(tmp_path: Path) -> None:
     """With the temperature shown, viscous friction predicts the cold start worse than without."""
     late = ("lagging_thermometer",)

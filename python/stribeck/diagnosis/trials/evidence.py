@@ -44,6 +44,13 @@ class Evidence:
     fall_in_band: float
     p_value: float
 
+    def is_large(self, least: float) -> bool:
+        """Whether the error falls by at least `least`, on all samples or in the motion's band.
+
+        Vibration and noise may be most of the error outside the band.
+        """
+        return max(self.fall, self.fall_in_band) >= least
+
 
 def held_out_square(fit: Fit, before: Fit) -> float:
     """Held-out sum of squares on the samples fitted to, with the weights of `before`.

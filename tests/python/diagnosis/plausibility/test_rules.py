@@ -11,7 +11,7 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.carrying import fewest
 from stribeck.diagnosis.plausibility.cancelling import cancelling
-from stribeck.diagnosis.plausibility.carried import Carried
+from stribeck.diagnosis.plausibility.carried import Carried, move_of
 from stribeck.diagnosis.plausibility.claim import Claim, term_torques
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
 from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
@@ -176,22 +176,30 @@ def test_presliding_within_a_sample(tmp_path: Path) -> None:
 
 
 def test_one_move_carries_what_one_move_shows(tmp_path: Path) -> None:
-    """An offset during a second of the recording is a single event."""
-    t, _, _, _ = motion()
-    claim = made(tmp_path, np.where((t > 10.0) & (t < 11.0), 1.5, 0.0), "offset")
-    only = replace(
-        claim,
-        after=replace(
-            claim.after,
-            prediction=claim.before.prediction + np.where((t > 10.0) & (t < 11.0), 1.5, 0.0),
-            held_out=claim.before.held_out + np.where((t > 10.0) & (t < 11.0), 1.5, 0.0),
-        ),
+    """A torque that halves the error of one move, and does nothing in the others."""
+    claim = made(tmp_path, 0.0, "offset")
+    before = claim.before
+    rows = claim.rows[move_of(claim) == 3]
+    added = np.zeros_like(before.prediction)
+    added[rows] = 0.5 * before.held_out_residual[rows]
+    after = replace(
+        claim.after, prediction=before.prediction + added, held_out=before.held_out + added
     )
+    only = replace(claim, after=after)
     reason = few_events(only)
     assert reason is not None and "90 % of what it gains" in reason
     lost = one_event(only)
     assert lost is not None and "would not be found" in lost
     assert weak(only) == reason
+
+
+def test_a_small_effect_of_all_moves_is_found_without_any_of_them(tmp_path: Path) -> None:
+    """Whichever move is left out, it brings a little less than it must, which is no reason."""
+    claim = made(tmp_path, 0.02, "offset")
+    before, after = (fit.rmse_held_out for fit in (claim.before, claim.after))
+    assert before is not None and after is not None
+    just = replace(claim, least_fall=1.0 - after / before)
+    assert one_event(just) is None
 
 
 def test_all_moves_carry_an_offset(offset: Claim) -> None:
