@@ -7,7 +7,7 @@ import scipy
 
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.channels import Channels
-from stribeck.recording.rows import quantisation_step
+from stribeck.recording.mend.held import Held
 
 __all__ = ["drop_bad_rows"]
 
@@ -15,8 +15,6 @@ __all__ = ["drop_bad_rows"]
 _FEW = 0.05
 _MEASURED = ("position", "velocity", "torque", "current", "friction_torque")
 _EFFORTS = ("torque", "current", "friction_torque")
-#: A joint at this many steps of its position per sample cannot stay where it is.
-_STEPS = 3.0
 #: A clipped torque stands at its limit this often in a row, and this many times as often in all
 #: as it is near it.
 _IN_A_ROW, _PILE = 3, 10.0
@@ -33,29 +31,46 @@ def drop_bad_rows(data: Channels, run: Ints) -> Ints:
     """
     if data.prepared.settings.average or len(run) < 20:
         return run
-    kinds = {
-        "hold zeros in the middle of a motion (drop-outs)": _zeros,
-        "repeat the row before while the joint moves": _stuck,
-        "have a torque that stands alone outside of all others (spikes)": _spikes,
-        "have a torque at the limit of its range (clipped)": _clipped,
-    }
-    for what, find in kinds.items():
-        bad = find(data)
-        count = int(bad.sum())
-        if not count:
-            continue
-        if count > _FEW * len(run):
-            data.notes.append(f"{count} of {len(run)} rows {what}: too many to leave out")
-            continue
-        at = int(np.flatnonzero(bad)[0])
-        verb = what if count > 1 else _singular(what)
-        data.notes.append(
-            f"{count} of {len(run)} rows {verb} and {'are' if count > 1 else 'is'} left out "
-            f"(first {data.place(at)})"
-        )
-        data.join(~bad)
-        run = run[~bad]
-    return run
+    run = _left_out(data, run, _zeros(data), "hold zeros in the middle of a motion (drop-outs)")
+    run = _without_held(data, run)
+    spikes = "have a torque that stands alone outside of all others (spikes)"
+    run = _left_out(data, run, _spikes(data), spikes)
+    return _left_out(data, run, _clipped(data), "have a torque at the limit of its range (clipped)")
+
+
+def _left_out(data: Channels, run: Ints, bad: Bools, what: str) -> Ints:
+    """The runs of the rows that are not `bad`, which are left out if there are few."""
+    count = int(bad.sum())
+    if not count:
+        return run
+    if count > _FEW * len(run):
+        data.notes.append(f"{count} of {len(run)} rows {what}: too many to leave out")
+        return run
+    at = int(np.flatnonzero(bad)[0])
+    verb = what if count > 1 else _singular(what)
+    data.notes.append(
+        f"{count} of {len(run)} rows {verb} and {'are' if count > 1 else 'is'} left out "
+        f"(first {data.place(at)})"
+    )
+    data.join(~bad)
+    return run[~bad]
+
+
+def _without_held(data: Channels, run: Ints) -> Ints:
+    """The runs of the rows with new values, however many repeat the row before."""
+    held = Held.of(data)
+    if not held.always:
+        return _left_out(data, run, held.rows, "repeat the row before while the joint moves")
+    written, changed = (
+        1e3 * float(np.median(np.diff(data.values["time"][kept])))
+        for kept in (slice(None), ~held.rows)
+    )
+    data.notes.append(
+        f"{int(held.rows.sum())} of {len(run)} rows repeat the row before and are left out: a row "
+        f"was written every {written:.3g} ms, and the channels change about every {changed:.3g} ms"
+    )
+    data.join(~held.rows)
+    return run[~held.rows]
 
 
 def _singular(what: str) -> str:
@@ -84,36 +99,6 @@ def _zeros(data: Channels) -> Bools:
     step = np.abs(np.diff(position))[~(zero[1:] | zero[:-1])]
     away = scipy.ndimage.maximum_filter(np.abs(np.where(zero, 0.0, position)), 5)
     return zero & (away > 5.0 * step.max(initial=0.0))
-
-
-def _stuck(data: Channels) -> Bools:
-    """Rows that are equal to the row before although the joint was moving."""
-    channels = _measured(data)
-    stuck = np.zeros(len(data.rows), dtype=bool)
-    position, time = channels.get("position"), data.values.get("time")
-    if position is None or time is None or len(channels) < 2:
-        return stuck
-    same = np.all([np.diff(values) == 0.0 for values in channels.values()], axis=0)
-    if not same.any():
-        return stuck
-    dt = np.diff(time)
-    velocity = channels.get("velocity")
-    if velocity is None:
-        # The motion over the stretch that holds, seen from the samples around it.
-        usual = np.where(same, np.nan, np.abs(np.diff(position)))
-        moved = np.fmin(_before(usual), _before(usual[::-1])[::-1])
-    else:
-        moved = np.abs(velocity[1:]) * dt
-    least = _STEPS * quantisation_step(position)
-    least = max(least, 1e-9 * float(np.ptp(position)))
-    stuck[1:] = same & (moved > least)
-    return stuck
-
-
-def _before(values: Floats) -> Floats:
-    """Each value, or the last one before it that is not missing."""
-    at = np.maximum.accumulate(np.where(np.isnan(values), -1, np.arange(len(values))))
-    return np.where(at >= 0, values[np.maximum(at, 0)], 0.0)
 
 
 def _spikes(data: Channels) -> Bools:

@@ -1,0 +1,108 @@
+"""Rows that repeat the row before: the logger had no new values.
+
+A few are lost messages. Where many are, the logger writes rows faster than its channels change;
+one row of each change is then all that was measured. Held values look like a joint that sticks and
+jumps, as in presliding.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from stribeck.recording.arrays import Bools, Floats
+from stribeck.recording.cells import column_numbers
+from stribeck.recording.channels import Channels
+from stribeck.recording.names import wide_groups
+from stribeck.recording.rows import quantisation_step
+
+__all__ = ["Held"]
+
+_MEASURED = ("position", "velocity", "torque", "current", "friction_torque")
+#: A joint at this many steps of its position per sample cannot stay where it is.
+_STEPS = 3.0
+#: With such a share of the rows in motion that repeat the row before, they are no exception.
+_MANY = 0.05
+
+
+@dataclass(frozen=True)
+class Held:
+    """Repeated rows, bool array [n], and whether the logger writes faster than channels change."""
+
+    rows: Bools
+    always: bool = False
+
+    @classmethod
+    def of(cls, data: Channels) -> Held:
+        """The rows that are equal to the row before although a joint was moving.
+
+        With several joints in the columns of a file, a row repeats if it does for all of them, so
+        that each joint has the same samples.
+        """
+        held = np.zeros(len(data.rows), dtype=bool)
+        joints = _of_all_joints(data) or [_of_one_joint(data)]
+        time = data.values.get("time")
+        if time is None or any("position" not in one or len(one) < 2 for one in joints):
+            return cls(held)
+        same = np.all([np.diff(v) == 0.0 for one in joints for v in one.values()], axis=0)
+        if not same.any():
+            return cls(held)
+        moved = np.any([_moved(one, same, np.diff(time)) for one in joints], axis=0)
+        held[1:] = same & moved
+        if held.sum() <= _MANY * moved.sum():
+            return cls(held)
+        held[1:] = same & (_lengths(same) <= _longest(same, moved))
+        return cls(held, always=True)
+
+
+def _of_one_joint(data: Channels) -> dict[str, Floats]:
+    return {c: data.values[c] for c in _MEASURED if c in data.values}
+
+
+def _of_all_joints(data: Channels) -> list[dict[str, Floats]]:
+    """The measured channels of all joints, as in the file; none where it has one joint."""
+    prepared = data.prepared
+    groups = {c: g for c, g in wide_groups(prepared.table.columns).items() if c in _MEASURED}
+    choice = prepared.choices.get("position")
+    if choice is None or choice.source not in groups.get("position", {}).values():
+        return []
+
+    def values(column: str) -> Floats:
+        return column_numbers(prepared.source, prepared.table, prepared.row, column)[data.rows]
+
+    return [
+        # A velocity in another unit than the position says nothing about its steps.
+        {c: values(g[joint]) for c, g in groups.items() if joint in g and c != "velocity"}
+        for joint in groups["position"]
+    ]
+
+
+def _moved(channels: dict[str, Floats], same: Bools, dt: Floats) -> Bools:
+    """Whether the joint moved by several steps of its position since the row before, [n - 1]."""
+    position, velocity = channels["position"], channels.get("velocity")
+    if velocity is None:
+        # The motion over the stretch that holds, seen from the samples around it.
+        usual = np.where(same, np.nan, np.abs(np.diff(position)))
+        moved = np.fmin(_before(usual), _before(usual[::-1])[::-1])
+    else:
+        moved = np.abs(velocity[1:]) * dt
+    least = max(_STEPS * quantisation_step(position), 1e-9 * float(np.ptp(position)))
+    return np.asarray(moved > least)
+
+
+def _before(values: Floats) -> Floats:
+    """Each value, or the last one before it that is not missing."""
+    at = np.maximum.accumulate(np.where(np.isnan(values), -1, np.arange(len(values))))
+    return np.where(at >= 0, values[np.maximum(at, 0)], 0.0)
+
+
+def _lengths(same: Bools) -> Floats:
+    """How many rows hold in a row around each that does, [n - 1]."""
+    stretch = np.cumsum(np.diff(same, prepend=False))
+    return np.bincount(stretch, minlength=1)[stretch].astype(np.float64)
+
+
+def _longest(same: Bools, moved: Bools) -> float:
+    """The longest time that values are held in motion, in rows; a joint may rest longer."""
+    return float(_lengths(same)[same & moved].max())

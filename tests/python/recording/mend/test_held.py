@@ -1,0 +1,58 @@
+"""Rows that a logger wrote without new values."""
+
+from __future__ import annotations
+
+import numpy as np
+import polars as pl
+from stribeck import read
+from synthetic import joint
+
+ROWS = 4000
+CHANNELS = ("position", "velocity", "torque")
+
+
+def held(frame: pl.DataFrame, changes: np.ndarray, channels: tuple[str, ...]) -> pl.DataFrame:
+    """The frame with channels that keep the value of the last row of `changes`."""
+    last = changes[np.searchsorted(changes, np.arange(frame.height), side="right") - 1]
+    return frame.with_columns(**{c: frame[c].to_numpy()[last] for c in channels})
+
+
+def test_a_logger_that_writes_faster_than_channels_change(write):
+    """Each third or so row has new values: those rows are the recording."""
+    frame = joint(rows=ROWS, rate=300.0).select("time", *CHANNELS)
+    changes = np.unique(np.r_[0, np.cumsum(np.random.default_rng(1).integers(2, 5, ROWS))])
+    changes = changes[changes < ROWS]
+    recording = read(write(held(frame, changes, CHANNELS)))
+    note = next(note for note in recording.notes if "repeat the row before" in note)
+    assert note.startswith(f"{ROWS - changes.size} of {ROWS} rows repeat the row before and are")
+    assert "written every 3.33 ms" in note and "change about every 10 ms" in note
+    np.testing.assert_array_equal(recording.time, frame["time"].to_numpy()[changes])
+    assert recording.gaps == 0
+
+
+def test_a_rest_that_lasts_longer_is_kept(write):
+    frame = joint(rows=ROWS, rate=300.0).select("time", *CHANNELS)
+    table = {name: frame[name].to_numpy().copy() for name in frame.columns}
+    table["velocity"][:600] = 0.0
+    for name in ("position", "torque"):
+        table[name][:600] = table[name][600]
+    changes = np.unique(np.r_[0:600, np.arange(600, ROWS, 3)])
+    recording = read(write(held(pl.DataFrame(table), changes, CHANNELS)))
+    np.testing.assert_array_equal(recording.time, frame["time"].to_numpy()[changes])
+
+
+def test_a_row_of_several_joints_repeats_as_a_whole(write):
+    """A joint whose values are equal by chance moves with the others; each has the same samples."""
+    one = joint(rows=ROWS).select("time", *CHANNELS)
+    two = joint(rows=ROWS, seed=2)
+    frame = one.rename({c: f"{c}_1" for c in CHANNELS})
+    frame = frame.with_columns(**{f"{c}_2": two[c] for c in CHANNELS})
+    chance = np.delete(np.arange(ROWS), [700, 1900])
+    lost = np.delete(np.arange(ROWS), [1200])
+    frame = held(frame, chance, tuple(f"{c}_1" for c in CHANNELS))
+    frame = held(frame, lost, tuple(f"{c}_{k}" for c in CHANNELS for k in (1, 2)))
+    path = write(frame)
+    for number in ("1", "2"):
+        recording = read(path, joint=number)
+        assert any(note.startswith("1 of 4000 rows repeats the row") for note in recording.notes)
+        np.testing.assert_array_equal(recording.time, frame["time"].to_numpy()[lost])
