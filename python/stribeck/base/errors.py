@@ -170,6 +170,17 @@ def nearest(name: str, options: Iterable[str]) -> str:
 _LISTED = 200
 
 
+def joint_called(name: str) -> str:
+    """A joint in a sentence: its name alone where that says that it is a joint.
+
+    Examples
+    --------
+    >>> joint_called("2"), joint_called("joint_2")
+    ('joint 2', 'joint_2')
+    """
+    return name if name.lower().startswith("joint") else f"joint {name}"
+
+
 def listed(names: Iterable[str]) -> str:
     """Names separated by commas; of many, or of long ones, the first and how many there are more.
 

@@ -66,7 +66,8 @@ def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ..
     """The model's parameters with bounds and starts in their own units.
 
     Bounds and starts that a user gave replace those of the catalog. A parameter that the catalog
-    holds has its known value, or else its start, as both bounds.
+    holds has its known value, or else its start, as both bounds. The whole inertia, where no load
+    torque holds a part of it, is not negative.
     """
     scales = scale_values(recording)
     made = []
@@ -74,6 +75,8 @@ def scaled_parameters(model: Model, recording: Recording) -> tuple[Parameter, ..
         scale = scales[p.scale]
         start = _formula_start(p, recording) if math.isnan(p.start) else p.start * scale
         lower, upper = p.lower * scale, p.upper * scale
+        if p.name == "inertia" and "inertia" in model.rigid_body:
+            lower = max(lower, 0.0)
         if p.name in model.limits:
             lower, upper = model.limits[p.name]
         elif p.role == "held":

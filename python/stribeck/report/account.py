@@ -23,6 +23,7 @@ from stribeck.report.diagnosis import (
     visible_heading,
     visible_rows,
 )
+from stribeck.report.fit import hardly_explained
 from stribeck.report.improvement import passivity_sentence, stopped_sentence, summary_sentence
 from stribeck.report.numbers import change_text, percent, plain
 
@@ -290,7 +291,8 @@ def _relative_sentence(fit: Fit) -> str:
     if fit.relative_residual is None:
         return ""
     what = "norm of the held-out error / norm of the torque"
-    return f"Relative residual ({what}): {percent(fit.relative_residual)}."
+    said = f"Relative residual ({what}): {percent(fit.relative_residual)}. {hardly_explained(fit)}"
+    return said.strip()
 
 
 def error_of(fit: Fit) -> float:

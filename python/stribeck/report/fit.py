@@ -53,6 +53,8 @@ PASSIVITY = {
     None: "Whether this friction is passive within its operating box could not be decided.",
 }
 
+#: Relative residual from which on a model explains hardly any of the torque.
+HARDLY = 0.9
 #: Probability of another place above which more starts are advised.
 UNSURE = 0.5
 
@@ -151,7 +153,20 @@ def errors_text(fit: Fit) -> str:
             ("relative residual", percent(fit.relative_residual), f"held-out error / torque{below}")
         )
     first, second = max(len(a) for a, _, _ in rows), max(len(b) for _, b, _ in rows)
-    return "\n".join(f"  {a:<{first}}  {b:>{second}}  {c}" for a, b, c in rows)
+    lines = [f"  {a:<{first}}  {b:>{second}}  {c}" for a, b, c in rows]
+    warning = hardly_explained(fit)
+    return "\n".join([*lines, "", paragraph(warning, 2)] if warning else lines)
+
+
+def hardly_explained(fit: Fit) -> str:
+    """That a model explains hardly any of the torque, where it does not."""
+    if fit.relative_residual is None or fit.relative_residual <= HARDLY:
+        return ""
+    return (
+        f"{fit.model.spec} explains hardly any of the torque, so that its values say nothing about "
+        f"friction. Something else moves or loads this joint (other joints, a contact, a hand), or "
+        f"a column is that of another joint."
+    )
 
 
 def _weighted_rows(fit: Fit) -> list[tuple[str, str, str]]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from stribeck.base.errors import joint_called
 from stribeck.report.diagnosis import doubts
 from stribeck.report.layout import bullets, joined, paragraph, table
 from stribeck.report.numbers import (
@@ -67,8 +68,10 @@ def coupling_text(robot: Robot) -> str:
     lines = []
     for k in coupled(robot.coupling):
         pairs = zip(robot.names, robot.coupling[k], strict=True)
-        parts = [f"{plain(factor)} x joint {name}" for name, factor in pairs if factor != 0.0]
-        lines.append(f"motor of joint {robot.names[k]}: {' + '.join(parts)}")
+        parts = [
+            f"{plain(factor)} x {joint_called(name)}" for name, factor in pairs if factor != 0.0
+        ]
+        lines.append(f"motor of {joint_called(robot.names[k])}: {' + '.join(parts)}")
     head = f"Motors turn with several joints; recorded positions are those of the {robot.encoders}:"
     return bullets(head, lines)
 
@@ -242,7 +245,9 @@ def _doubts_of_joints(found: RobotDiagnosis) -> list[str]:
     rows: dict[str, list[str]] = {}
     for name, joint in found.joints.items():
         for heading, sentences in doubts(joint):
-            rows.setdefault(heading, []).extend(f"joint {name}, {text}" for text in sentences)
+            rows.setdefault(heading, []).extend(
+                f"{joint_called(name)}, {text}" for text in sentences
+            )
     return [bullets(f"{heading}:", sentences) for heading, sentences in rows.items()]
 
 
@@ -291,7 +296,7 @@ def robot_improvement_text(found: RobotImprovement) -> str:
     rows = added_rows(found)
     added = table(rows, right=[2, 4]) if len(rows) > 1 else "No effect is added."
     where = [
-        paragraph(f"joint {name}, {step.finding.effect}: {step.finding.where}.", 2, 2)
+        paragraph(f"{joint_called(name)}, {step.finding.effect}: {step.finding.where}.", 2, 2)
         for name, steps in found.steps.items()
         for step in steps
     ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.base.errors import joint_called
 from stribeck.report.numbers import confidence_text, hedge, listed, percent
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def fit_headline(found: RobotFit) -> str:
     """How much of the torque the model leaves, on the best and on the worst joint."""
     rows = sorted((one.relative_residual_held_out, one.joint) for one in found.joints)
     (least, best), (most, worst) = rows[0], rows[-1]
-    between = f"{percent(least)} (joint {best}) to {percent(most)} (joint {worst})"
+    between = f"{percent(least)} ({joint_called(best)}) to {percent(most)} ({joint_called(worst)})"
     if len(rows) == 1:
         between = percent(most)
     return f"On held-out data the model leaves {between} of the torque unexplained."
@@ -45,8 +46,8 @@ def comparison_headline(compared: RobotComparison) -> str:
     best, worst = (compared.specs[of.index(end)] for end in (min(of), max(of)))
     joint = compared.fits[0].joints[k].joint
     return (
-        f"The models differ most on joint {joint}: {best} leaves {percent(min(of))} of the torque "
-        f"unexplained on held-out data, {worst} {percent(max(of))}."
+        f"The models differ most on {joint_called(joint)}: {best} leaves {percent(min(of))} of the "
+        f"torque unexplained on held-out data, {worst} {percent(max(of))}."
     )
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base.errors import joint_called
 from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.motion import RobotMotion
 
@@ -100,7 +101,7 @@ def spring(motion: RobotMotion, joint: int) -> Cause:
     columns = np.zeros((*motion.position.shape, SPRING_TERMS))
     columns[:, joint] = part[:, None] ** np.arange(1, SPRING_TERMS + 1)
     name = motion.robot.names[joint]
-    text = f"a spring, balancer or cable at joint {name}"
+    text = f"a spring, balancer or cable at {joint_called(name)}"
     return Cause("spring", text, motion, motion.robot.motor_torque(columns))
 
 
@@ -133,7 +134,9 @@ def transmission(motion: RobotMotion, torque: Array, motor: int, other: int, tur
     columns[:, motor, 1:] = turned_friction(motion, motor, other, turns)
     names = motion.robot.names
     than = "otherwise than stated" if motion.robot.coupling else "too"
-    text = f"the motor of joint {names[motor]} turns with joint {names[other]} {than}"
+    text = (
+        f"the motor of {joint_called(names[motor])} turns with {joint_called(names[other])} {than}"
+    )
     return Cause("transmission", text, motion, columns)
 
 

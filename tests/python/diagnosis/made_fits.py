@@ -28,7 +28,13 @@ class Moved:
     segment: NDArray[np.intp] = None  # type: ignore[assignment]
     block: NDArray[np.intp] = None  # type: ignore[assignment]
     averaged: bool = False
+    rate_hz: float = 1.0
     joint_kind: str = "prismatic"
+
+    @property
+    def rows(self) -> int:
+        """Number of samples."""
+        return self.velocity.size
 
     def __post_init__(self) -> None:
         size = self.velocity.size

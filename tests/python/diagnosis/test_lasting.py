@@ -51,6 +51,24 @@ def test_a_slow_oscillation_lasts(tmp_path: Path) -> None:
     assert lasting(tmp_path, 4 * NOISE * np.sin(2 * np.pi * 1.7 * time)) > 0.3 * 8.0
 
 
+@pytest.mark.parametrize("hertz", [0.5, 0.56, 0.83, 1.2])
+def test_no_slow_oscillation_is_overlooked(tmp_path: Path, hertz: float) -> None:
+    # The mean autocovariance from 0.2 to 0.4 s is zero at 0.83 Hz, that from 0.3 to 0.6 s at 0.56.
+    time = np.arange(ROWS) / RATE
+    assert lasting(tmp_path, 4 * NOISE * np.sin(2 * np.pi * hertz * time)) > 0.3 * 8.0
+
+
+def test_another_joint_that_moves_is_no_noise(tmp_path: Path) -> None:
+    """Its torque is in no channel, so that repeats of a state differ as any two samples do."""
+    time = np.arange(ROWS) / RATE
+    other = 4 * NOISE * np.sign(np.sin(2 * np.pi * 0.83 * time + 2.0 * np.sin(0.7 * time)))
+    found = sb.diagnose(sb.fit("coulomb", record(tmp_path, joint(other, rows=ROWS, noise=NOISE))))
+    assert found.noise_floor.value is None and "motion of other joints" in str(
+        found.noise_floor.why
+    )
+    assert found.verdict == "unexplained"
+
+
 def test_what_was_not_tested_is_not_denied(tmp_path: Path) -> None:
     """A pump that turns in one direction passes no state twice, so that no regressor learns."""
     t = np.arange(12000) / 200.0

@@ -72,7 +72,7 @@ def test_what_gains_in_one_block_alone_is_tried_too(doubtful: sb.Diagnosis) -> N
     assert passes(trial, 20, 0.01) and not passes_in_one_block(trial, 20, 0.01)
     elsewhere = replace(trial, evidence=replace(found, everywhere=False))
     assert not passes(elsewhere, 20, 0.01) and passes_in_one_block(elsewhere, 20, 0.01)
-    small = replace(found, everywhere=False, fall=0.005)
+    small = replace(found, everywhere=False, fall=0.005, fall_in_band=0.005)
     assert not passes_in_one_block(replace(trial, evidence=small), 20, 0.01)
     # It must pass in the end.
     assert judged(held, load.fit, 0.01, seed=0) is not None
@@ -91,7 +91,11 @@ def test_what_gains_no_more_than_chance_may_is_tried_too(doubtful: sb.Diagnosis)
     assert not is_uncertain(trial, 20, 0.01)
     chance = replace(found, p_value=0.001)
     assert is_uncertain(replace(trial, evidence=chance), 20, 0.01)
-    for change in ({"p_value": 0.0004}, {"fall": 0.005}, {"fall_in_band": 0.0}):
+    for change in (
+        {"p_value": 0.0004},
+        {"fall": 0.005, "fall_in_band": 0.005},
+        {"fall_in_band": 0.0},
+    ):
         assert not is_uncertain(replace(trial, evidence=replace(chance, **change)), 20, 0.01)
     assert not is_uncertain(replace(trial, evidence=replace(chance, everywhere=False)), 20, 0.01)
 

@@ -149,3 +149,16 @@ def test_time_goes_on_over_runs(tmp_path: Path) -> None:
     elapsed = record(tmp_path, both).elapsed
     assert np.all(np.diff(elapsed) > 0.0)
     assert elapsed[0] == 0.0 and elapsed[-1] == pytest.approx(7.99)
+
+
+def test_the_inertia_of_a_joint_is_not_negative(tmp_path: Path) -> None:
+    """Where no load torque is known, the inertia is all of it; beside one it is a correction."""
+    frame = joint()
+    less = frame.with_columns(torque=pl.col("torque") - 0.5 * pl.col("acceleration"))
+    beside = sb.fit("coulomb+inertia", record(tmp_path, less), starts=1)
+    assert beside.model.value("inertia") == pytest.approx(-0.5, abs=0.01)
+    alone = record(tmp_path, less.drop("load_torque"), "alone")
+    whole = sb.fit("coulomb", alone, starts=1)
+    assert whole.model.value("inertia") == 0.0 and whole.estimates["inertia"].at_bound
+    asked = sb.fit("coulomb", alone, starts=1, bounds={"inertia": (-5.0, 5.0)})
+    assert asked.model.value("inertia") < 0.0

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.residual.unexplained import Unexplained
@@ -22,6 +24,7 @@ from stribeck.report import (
 from stribeck.report.certificate import certificate_text
 from stribeck.report.diagnosis import left_text, visible_heading
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
+from synthetic import joint, record
 
 
 def every_text(improvement: sb.Improvement, steady: sb.Fit) -> dict[str, str]:
@@ -179,3 +182,15 @@ def test_an_effect_that_changes_nothing_does_not_raise_the_error_by_zero() -> No
     text = " ".join(improving.addition_text(sb.Addition("offset", fit, fit)).split())
     assert "rises" not in text and "falls" not in text
     assert "stays at" in text and "the effect does not improve it" in text
+
+
+def test_a_model_that_explains_nothing_is_said_to(tmp_path: Path) -> None:
+    """The torque is that of another cause, and friction is lost in it."""
+    frame = joint()
+    push = 40.0 * np.sin(3.0 * frame["time"].to_numpy() ** 1.1)
+    pushed = frame.drop("load_torque").with_columns(torque=pl.col("torque") + push)
+    fitted = sb.fit("coulomb", record(tmp_path, pushed), starts=1)
+    assert fitted.relative_residual is not None and fitted.relative_residual > 0.9
+    assert "coulomb explains hardly any of the torque" in fit.fit_text(fitted)
+    usual = sb.fit("coulomb", record(tmp_path, frame, "usual"), starts=1)
+    assert "hardly any" not in fit.fit_text(usual)

@@ -3,7 +3,8 @@
 Noise of a sensor, behind its filters, is forgotten within a tenth of a second. What is still there
 a quarter of a second later is torque, whether or not the joint passes the same state again. A
 vibration changes its sign several times meanwhile, and its mean over these times is zero; that of a
-slow oscillation is not, though it may be negative.
+slow oscillation is not, though it may be negative. Where it is zero by chance, that over other
+times is not.
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ import numpy as np
 
 from stribeck.fitting.result import Fit
 
-#: The residual is compared with itself so many seconds later, after the noise, and up to twice as
-#: many, within a move.
-AFTER = 0.2
+#: The residual is compared with itself from so many seconds later, after the noise, up to twice as
+#: many, within a move. An oscillation whose mean is zero over the former has one over the latter.
+AFTER = (0.2, 0.3)
 #: Fewest samples between those compared, and fewest pairs of samples.
 FEWEST_STEPS, FEWEST_PAIRS = 5, 300
 #: Number of times from the first to the last.
@@ -26,10 +27,15 @@ def lasting_square(fit: Fit) -> float:
 
     It is the size of the mean autocovariance over times after which noise is forgotten.
     """
-    r = fit.recording
-    if r.averaged:
+    if fit.recording.averaged:
         return 0.0
-    first = max(AFTER * r.rate_hz, FEWEST_STEPS)
+    return max(_mean_autocovariance(fit, seconds) for seconds in AFTER)
+
+
+def _mean_autocovariance(fit: Fit, seconds: float) -> float:
+    """Its size, from some `seconds` up to twice as many; 0 where it is not known."""
+    r = fit.recording
+    first = max(seconds * r.rate_hz, FEWEST_STEPS)
     steps = np.unique(np.linspace(first, 2.0 * first, TIMES).round().astype(np.int64))
     residual = np.full(r.rows, np.nan)
     residual[fit.rows] = fit.residual[fit.rows] - fit.residual[fit.rows].mean()
