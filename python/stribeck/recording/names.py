@@ -303,16 +303,15 @@ def same_of_joint(names: Sequence[str], column: str) -> dict[str, str]:
     --------
     >>> same_of_joint(["t", "q_1", "q_2", "dq_2"], "q_1")
     {'2': 'q_2'}
+    >>> same_of_joint(["arm_1_joint_position", "arm_2_joint_position"], "arm_1_joint_position")
+    {'2': 'arm_2_joint_position'}
     """
-    own = any_index(column)
-    if own is None:
-        return {}
-    stem, tail = column.rsplit(own, 1)
-    found = {
-        index: name
-        for name in names
-        if name != column
-        and (index := any_index(name)) is not None
-        and name.rsplit(index, 1) == [stem, tail]
-    }
-    return found
+    # Of several numbers the last one that differs between columns is that of the joint.
+    for number in reversed(list(re.finditer(r"(?<!\d)\d{1,2}(?!\d)", column))):
+        stem, tail = column[: number.start()], column[number.end() :]
+        alike = re.compile(f"{re.escape(stem)}(\\d{{1,2}}){re.escape(tail)}")
+        found = {m.group(1): name for name in names if (m := alike.fullmatch(name))}
+        found.pop(number.group(), None)
+        if found:
+            return found
+    return {}

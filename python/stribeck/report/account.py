@@ -223,7 +223,7 @@ def of_improvement(improvement: Improvement, comparison: Comparison | None = Non
     left = (
         stopped_sentence(improvement),
         floor_sentence(improvement.noise_floor, unit),
-        left_text(improvement.unexplained),
+        left_text(improvement.unexplained, improvement.final.recording),
         explainable_text(improvement.last.explainable, final.model.spec, unit),
         trend_text(improvement.last.trend),
         _relative_sentence(final),

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.testable import Untestable
     from stribeck.diagnosis.trend import Trend
     from stribeck.diagnosis.visibility.result import Group, SmallestVisible
+    from stribeck.recording.recording import Recording
 
 VERDICTS = {
     "missing": "Missing:",
@@ -252,15 +253,21 @@ def left_after(diagnosis: Diagnosis) -> str:
     """How much of the error is more than noise once the first finding is added, if asked."""
     if not diagnosis.unexplained.asked:
         return ""
-    left = left_text(diagnosis.unexplained)
+    left = left_text(diagnosis.unexplained, diagnosis.fit.recording)
     if not diagnosis.findings:
         return left
     return f"With {diagnosis.findings[0].effect} added, {left[0].lower()}{left[1:]}"
 
 
-def left_text(left: Unexplained) -> str:
-    """How much of the error is more than noise, and how much of it was not judged."""
+def left_text(left: Unexplained, recording: Recording) -> str:
+    """How much of the error is more than noise, and how much of it was not judged.
+
+    Where other joints of the file move, that they may be the cause.
+    """
     said = _structure(left)
+    others = next((check.said for check in recording.checks if check.check == "others"), None)
+    if left.is_structure and others is not None:
+        said += f" {others[0].upper()}{others[1:]}."
     if left.is_partial:
         said += (
             f" Not judged are the samples that the fit excludes (see the notes): they cause "

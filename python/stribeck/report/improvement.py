@@ -53,7 +53,7 @@ def improvement_text(improvement: Improvement) -> str:
     final, floor = improvement.final, improvement.noise_floor
     r, unit = final.recording, final.model.torque_unit
     steps = [finding_text(step.finding, k) for k, step in enumerate(improvement.steps, 1)]
-    stopped = stopped_sentence(improvement)
+    stopped = f"{stopped_sentence(improvement)} {left_text(improvement.unexplained, r)}"
     is_structure = improvement.unexplained.is_structure
     return joined(
         f"Improving {improvement.base.model.spec} on {file_name(r)}",
@@ -62,7 +62,7 @@ def improvement_text(improvement: Improvement) -> str:
         improvement_bars(improvement),
         paragraph(floor_sentence(floor, unit), 0) if floor.value is None else "",
         joined("Found, in this order:", *steps) if steps else "",
-        paragraph(f"{stopped} {left_text(improvement.unexplained)}", 0),
+        paragraph(stopped, 0),
         paragraph("" if is_structure else _above_the_floor(final, floor), 0),
         paragraph(explainable_text(improvement.last.explainable, final.model.spec, unit), 0),
         paragraph(trend_text(improvement.last.trend), 0),

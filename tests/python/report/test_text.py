@@ -11,6 +11,7 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.testable import Untestable
+from stribeck.recording.check import Check
 from stribeck.report import (
     comparison,
     diagnosis,
@@ -168,10 +169,18 @@ def test_what_was_not_found_on_a_prismatic_joint_is_a_force(diagnosis: sb.Diagno
     assert "RMS force" in visible_heading(moved)
 
 
-def test_an_error_in_excluded_samples_is_said() -> None:
-    assert "Not judged" not in left_text(Unexplained(0.0, None, excluded=0.1))
-    said = left_text(Unexplained(0.0, None, excluded=0.83))
+def test_an_error_in_excluded_samples_is_said(diagnosis: sb.Diagnosis) -> None:
+    r = diagnosis.fit.recording
+    assert "Not judged" not in left_text(Unexplained(0.0, None, excluded=0.1), r)
+    said = left_text(Unexplained(0.0, None, excluded=0.83), r)
     assert "Not judged are the samples that the fit excludes" in said and "83 %" in said
+
+
+def test_other_joints_that_move_are_said_beside_structure(diagnosis: sb.Diagnosis) -> None:
+    others = Check("others", True, "joint 2 moves as well, and what it carries loads this joint")
+    r = replace(diagnosis.fit.recording, checks=(others,))
+    assert "Joint 2 moves as well" in left_text(Unexplained(0.4, "everywhere"), r)
+    assert "Joint 2" not in left_text(Unexplained(0.05, None), r)
 
 
 def test_an_effect_that_changes_nothing_does_not_raise_the_error_by_zero() -> None:

@@ -47,9 +47,10 @@ class Evidence:
     def is_large(self, least: float) -> bool:
         """Whether the error falls by at least `least`, on all samples or in the motion's band.
 
-        Vibration and noise may be most of the error outside the band.
+        Vibration and noise may be most of the error outside the band. On all samples half of that
+        is needed all the same: less is of no use.
         """
-        return max(self.fall, self.fall_in_band) >= least
+        return self.fall >= least / 2.0 and max(self.fall, self.fall_in_band) >= least
 
 
 def held_out_square(fit: Fit, before: Fit) -> float:
