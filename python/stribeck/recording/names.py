@@ -158,7 +158,7 @@ def parse_name(name: str) -> ParsedName:
         found = None if bare is None else _match(bare)
         if found is not None:
             return ParsedName(name, found[0], found[1], index, 4 if second else 3)
-    return _end_of_path(name) or ParsedName(name, None, None, None, 9)
+    return _end_of_path(name) or _after_joint(name) or ParsedName(name, None, None, None, 9)
 
 
 def _end_of_path(name: str) -> ParsedName | None:
@@ -180,6 +180,15 @@ def _end_of_path(name: str) -> ParsedName | None:
     if _REFERRED.intersection(before):
         channel = f"reference_{channel}" if f"reference_{channel}" in CHANNELS else None
     return ParsedName(name, channel, found.unit, index, 5) if channel else None
+
+
+def _after_joint(name: str) -> ParsedName | None:
+    """What follows the name of a joint, as robots are logged: ``elbow_joint_velocity``."""
+    match = re.fullmatch(r"(.+_joint)_([A-Za-z]+)", name)
+    channel = _CHANNEL_OF.get(_key(match.group(2))) if match else None
+    if match is None or channel is None:
+        return None
+    return ParsedName(name, channel, None, match.group(1), 5)
 
 
 def parse_names(names: Sequence[str]) -> list[ParsedName]:

@@ -15,6 +15,14 @@ _NOT_MEASURED = frozenset(
     "ref reference des desired cmd command set setpoint goal target err error sim model est ff "
     "limit max min".split()
 )
+#: The channel of a column whose unit alone is known.
+_OF_UNIT = {
+    "length": "position",
+    "angle": "position",
+    "linear velocity": "velocity",
+    "angular velocity": "velocity",
+    "temperature": "temperature",
+}
 
 
 @dataclass(frozen=True)
@@ -53,8 +61,14 @@ def propose(columns: Iterable[str], used: Iterable[str], joint: str | None) -> l
     --------
     >>> propose(["t", "mos_temperature", "pos_ref"], ["t"], None)
     [Proposal(column='mos_temperature', channel='temperature', unit=None)]
+
+    The unit alone says what a column may be, if no other is read as that:
+
+    >>> propose(["t", "x_m", "y_mm"], ["t"], None)[0]
+    Proposal(column='x_m', channel='position', unit='m')
     """
     known, found = set(used), []
+    read = {parse_name(column).channel for column in known}
     for column in columns:
         index = any_index(column)
         if column in known or (joint is not None and index not in (None, joint)):
@@ -68,6 +82,9 @@ def propose(columns: Iterable[str], used: Iterable[str], joint: str | None) -> l
             channels = [channel_words(word) for word in words if len(word) > 1]
             channel = next((c for c in reversed(channels) if c is not None), None)
             unit = file_unit(column)
+        if channel is None and unit is not None:
+            channel = _OF_UNIT.get(unit.dimension)
+            channel = None if channel in read else channel
         if channel is None:
             continue
         fits = unit is not None and unit.dimension in CHANNELS[channel]

@@ -303,3 +303,19 @@ def test_a_unit_that_contradicts_the_name_of_its_column_is_noted() -> None:
     for unit in ([], ["X_mm=mm"], ["v_mps=m/s"], ["X_mm=mm", "force_N=N"]):
         same = sb.read(frame, map=["position=X_mm"], unit=unit, trust=True)
         assert not any("its name says" in note for note in same.notes)
+
+
+def test_columns_named_by_joint_and_quantity(tmp_path):
+    """As ROS logs are: the joint is chosen by the name that its columns begin with."""
+    t = np.arange(500) / 100.0
+    table = {"time": t}
+    for k, joint in enumerate(("torso_lift_joint", "arm_1_joint"), start=1):
+        table[f"{joint}_position"] = np.sin(k * t)
+        table[f"{joint}_velocity"] = k * np.cos(k * t)
+        table[f"{joint}_effort"] = np.sign(np.cos(k * t))
+    frame = pl.DataFrame(table)
+    with pytest.raises(sb.RecordingError, match="holds 2 joints side by side"):
+        sb.read(frame)
+    recording = sb.read(frame, joint="arm_1_joint")
+    np.testing.assert_array_equal(recording.velocity, table["arm_1_joint_velocity"])
+    assert recording.columns["torque"].source == "arm_1_joint_effort"
