@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from stribeck.diagnosis.visibility.result import Group, SmallestVisible
     from stribeck.recording.recording import Recording
 
+#: With fewer samples hardly any effect can be significant.
+FEWEST = 300
 VERDICTS = {
     "missing": "Missing:",
     "none": "Nothing is missing: the residual is noise.",
@@ -77,7 +79,7 @@ def _verdict(diagnosis: Diagnosis) -> str:
     if not diagnosis.findings and diagnosis.has_doubts:
         return NO_CLAIM
     if diagnosis.verdict == "none" and diagnosis.unexplained.share is None:
-        return NONE_SHOWN
+        return _too_few(diagnosis) or NONE_SHOWN
     said = VERDICTS[diagnosis.verdict]
     word = hedge(diagnosis.findings[0].confidence) if diagnosis.findings else ""
     return f"{word.capitalize()} {said[0].lower()}{said[1:]}" if word else said
@@ -171,7 +173,20 @@ def nothing_found(last: Diagnosis, spec: str, *, unexplained: bool) -> str:
             f"The model {spec} leaves unexplained structure on this recording, but no known effect "
             f"lowers its held-out error significantly."
         )
-    return f"No effect that this recording can show is missing from the model {spec}."
+    none = f"No effect that this recording can show is missing from the model {spec}."
+    return _too_few(last) or none
+
+
+def _too_few(last: Diagnosis) -> str:
+    """That the recording says little, where few of its samples are fitted to."""
+    count = last.fit.rows.size
+    if count >= FEWEST or last.fit.recording.averaged:
+        return ""
+    return (
+        f"This recording says little about what the model {last.fit.model.spec} lacks: only "
+        f"{count} samples are fitted to, in which the joint moves clearly faster than the noise of "
+        f"its velocity."
+    )
 
 
 def likely_effects(diagnosis: Diagnosis) -> list[str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stribeck.base.errors import FitError
+from stribeck.base.errors import FitError, joint_called
 from stribeck.base.pool import serial_linear_algebra
 from stribeck.base.shown import Shown
 from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
@@ -241,7 +241,7 @@ class _Search:
         for joint, name in enumerate(self.names):
             more = True
             while more:
-                self.progress(f"joint {name}: {self.solved.balance.models[joint].spec}")
+                self.progress(f"{joint_called(name)}: {self.solved.balance.models[joint].spec}")
                 self.last[name] = self._diagnosed(joint)
                 more = len(self.steps[name]) < self.most_steps and self._added(joint)
 
@@ -268,12 +268,15 @@ class _Search:
             scores = Scores.of(trial, raw=False)
             if self._holds(joint, trial, scores):
                 trial = solve(trial.balance, trial.values, trial.weights)
-                scores = Scores.of(trial, raw=False)
                 before = joint_fits(self.solved, base_estimates(self.solved))[joint]
                 after = joint_fits(trial, base_estimates(trial))[joint]
+                # Below the cut-off the error falls; as measured it must not rise.
+                if after.rmse_held_out >= before.rmse_held_out:
+                    continue
+                scores = Scores.of(trial, raw=False)
                 self.steps[name].append(RobotStep(finding, before, after))
                 self.solved, self.scores = trial, scores
-                self.progress(f"joint {name}: added {finding.effect}")
+                self.progress(f"{joint_called(name)}: added {finding.effect}")
                 return True
         return False
 

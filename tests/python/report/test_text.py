@@ -23,7 +23,7 @@ from stribeck.report import (
     improvement as improving,
 )
 from stribeck.report.certificate import certificate_text
-from stribeck.report.diagnosis import left_text, visible_heading
+from stribeck.report.diagnosis import left_text, nothing_found, visible_heading
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
 from synthetic import joint, record
 
@@ -174,6 +174,14 @@ def test_an_error_in_excluded_samples_is_said(diagnosis: sb.Diagnosis) -> None:
     assert "Not judged" not in left_text(Unexplained(0.0, None, excluded=0.1), r)
     said = left_text(Unexplained(0.0, None, excluded=0.83), r)
     assert "Not judged are the samples that the fit excludes" in said and "83 %" in said
+
+
+def test_few_samples_say_little(tmp_path: Path) -> None:
+    few = sb.diagnose(sb.fit("coulomb", record(tmp_path, joint(rows=150)), starts=1))
+    assert few.findings == () and "says little" in nothing_found(few, "coulomb", unexplained=False)
+    assert "says little" in diagnosis.diagnosis_text(few)
+    many = sb.diagnose(sb.fit("coulomb", record(tmp_path, joint(), "many"), starts=1))
+    assert "says little" not in nothing_found(many, "coulomb", unexplained=False)
 
 
 def test_other_joints_that_move_are_said_beside_structure(diagnosis: sb.Diagnosis) -> None:
