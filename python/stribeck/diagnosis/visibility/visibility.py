@@ -111,7 +111,8 @@ def _hidden(one: VisibleEffect, space: ModelSpace, unit: str) -> Untestable:
             "a part of it shows in only one stretch of the recording, and a model fitted without "
             "that stretch cannot predict it"
         )
-    elif np.isfinite(one.smallest):
+        return Untestable(one.effect, why, "repeat the motion, so that other stretches show it too")
+    if np.isfinite(one.smallest):
         why = (
             f"it would only be found above {number(one.smallest, 2)} {unit} RMS, more than all the "
             f"friction ({why}, or nearly)"
