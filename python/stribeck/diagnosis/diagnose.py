@@ -26,6 +26,7 @@ from stribeck.diagnosis.trials.outshone import without_outshone, without_unresol
 from stribeck.diagnosis.trials.pairs import best_pair
 from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import finding_of, ranked
+from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial, try_effect
 from stribeck.diagnosis.visibility.visibility import visibility
@@ -212,7 +213,12 @@ def _pair(fitted: Fit, evidence: Tested, floor: NoiseFloor) -> Pair | None:
         fitted, {e: s for e, s in evidence.screenings.items() if effect_name(e) not in judged}
     )
     first = None if best is None else try_effect(fitted, evidence.screenings[best.first])
-    if best is None or first is None or impossible(Claim(first.effect, fitted, first.fit)):
+    if best is None or first is None:
+        return None
+    # Alone the first may be impossible, since it stands in for both.
+    second = screened(first.fit, best.second)
+    both = None if second is None else try_effect(first.fit, second)
+    if both is None or impossible(Claim(both.effect, first.fit, both.fit)):
         return None
     finding = finding_of(fitted, first, NARROW, (), floor)
     return Pair(finding, effect_name(best.second), best.fall)
