@@ -6,6 +6,10 @@ is a function of the speed as well. Of the right effect its law leaves little to
 Friction always depends on the speed and may depend on the position, so that the form alone tells
 such effects apart. One that reads a channel of its own, such as the load torque, is another matter:
 a free function of that channel which explains more confirms that friction depends on it.
+
+A filter of the torque acts where the speed is low, so that a free function of the speed explains a
+part of what it leaves. Where causes in the measurement explain most of what remains, the form of an
+effect is not in doubt.
 """
 
 from __future__ import annotations
@@ -19,6 +23,7 @@ from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import held_out_square
 from stribeck.diagnosis.trials.flexible_refit import FlexibleRefit
+from stribeck.diagnosis.trials.imitations import explained_by_causes
 from stribeck.effect.base import FreeForm
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
@@ -27,13 +32,16 @@ from stribeck.fitting.result import Fit
 #: are not exact either: right effects leave up to 0.11, on simulated and on real recordings, and
 #: imitations from 0.2 on.
 BEYOND = 0.15
+#: Causes in the measurement explain most of what remains: more than this share of its square. What
+#: an imitation leaves they explain by at most 0.3.
+MOST = 0.5
 
 
 def of_other_form(
     findings: Sequence[Finding], current: Fit, remains: Unexplained, seed: int
 ) -> dict[str, str]:
     """The effects of a model that have another form, where structure remains, and why."""
-    if not remains.is_structure:
+    if not remains.is_structure or explained_by_causes(current) > MOST:
         return {}
     return {
         finding.effect: (

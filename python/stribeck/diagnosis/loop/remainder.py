@@ -11,13 +11,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
-from stribeck.diagnosis.measurement.table import measurement_columns
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
-from stribeck.diagnosis.trials.evidence import held_out_square
-from stribeck.diagnosis.trials.imitations import NARROW, beside_causes
+from stribeck.diagnosis.trials.imitations import NARROW, explained_by_causes
 from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
 
@@ -42,12 +38,7 @@ def unknown_structure(current: Fit, remains: Unexplained) -> float:
     """
     if not remains.is_structure or remains.shown <= 0.0:
         return 0.0
-    columns = measurement_columns(current)
-    if not columns:
-        return remains.shown
-    along = beside_causes(current, columns)
-    left = float(np.sum(along.held_out**2)) / held_out_square(current, current)
-    return max(remains.shown - max(1.0 - left, 0.0), 0.0)
+    return max(remains.shown - max(explained_by_causes(current), 0.0), 0.0)
 
 
 def part_explained(
