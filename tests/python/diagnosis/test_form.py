@@ -9,10 +9,12 @@ from typing import cast
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.benchmark.cases import Case
 from stribeck.diagnosis.loop import form
 from stribeck.diagnosis.loop.form import of_other_form
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.imitations import explained_by_causes
 from synthetic import joint, joint_with_stribeck_curve, motion, record
 
 V = motion()[2]
@@ -81,3 +83,29 @@ def test_other_causes_are_not_judged_by_their_form(tmp_path: Path) -> None:
     findings = [step.finding for step in found.steps]
     assert [finding.effect for finding in findings] == ["offset"]
     assert of_other_form(findings, found.final, REMAINS, 0) == {}
+
+
+@pytest.mark.parametrize(("share", "doubted"), [(0.3, True), (0.6, False)])
+def test_the_form_is_not_in_doubt_where_the_measurement_explains_what_remains(
+    share: float, doubted: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A filter of the torque acts where the speed is low, as a function of it does."""
+    fitted = sb.fit("coulomb+stribeck", record(tmp_path, joint()), starts=1)
+    monkeypatch.setattr(form, "_beyond", lambda *_: 1.0)
+    monkeypatch.setattr(form, "explained_by_causes", lambda _: share)
+    curve = [SimpleNamespace(effect="stribeck")]
+    found = of_other_form(cast("list[Finding]", curve), fitted, REMAINS, 0)
+    assert bool(found) == doubted
+
+
+@pytest.mark.slow
+def test_a_curve_behind_a_filter_of_the_torque_stays(tmp_path: Path) -> None:
+    """Causes in the measurement explain most of what remains beside it."""
+    behind = ("amplifier_warm_up", "current_filter")
+    hidden = ("stribeck", "temperature_viscous")
+    case = Case("two", "open_loop", hidden, 452155000, 2.0, nuisances=behind)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    found = sb.improve("coulomb", sb.read(tmp_path / "recording.parquet"))
+    assert found.unexplained.is_structure
+    assert explained_by_causes(found.final) > form.MOST
+    assert set(hidden) <= {step.finding.effect for step in found.steps}

@@ -10,8 +10,11 @@ import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.benchmark.cases import Case
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.trials.pairs import best_pair
 from stribeck.diagnosis.trials.screening import Screened, screened
+from stribeck.diagnosis.trials.trial import try_effect
 from synthetic import joint, motion, record
 
 ROWS = 6000
@@ -95,3 +98,17 @@ def test_the_lag_of_a_thermometer_is_a_pair_with_what_it_delays(tmp_path: Path) 
     improved = sb.improve("coulomb", before.recording)
     named = [step.finding.effect for step in improved.steps]
     assert named == ["temperature_viscous", "thermometer_lag"]
+
+
+@pytest.mark.slow
+def test_the_first_of_a_pair_may_be_impossible_alone(tmp_path: Path) -> None:
+    """It stands in for both: a cold start is predicted far worse, and few samples decide."""
+    behind = ("sensor_lag", "lagging_thermometer")
+    case = Case("one", "open_loop", ("temperature_viscous",), 452122000, 1.0, nuisances=behind)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    recording = sb.read(tmp_path / "recording.parquet")
+    before = sb.fit("coulomb", recording)
+    first = try_effect(before, screenings(before, ["temperature_viscous"])["temperature_viscous"])
+    assert first is not None and impossible(Claim(first.effect, before, first.fit)) is not None
+    named = [step.finding.effect for step in sb.improve("coulomb", recording).steps]
+    assert "temperature_viscous" in named

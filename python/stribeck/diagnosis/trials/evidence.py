@@ -21,6 +21,10 @@ from stribeck.identify.figures import bridged, rms, zero_phase
 
 Array = NDArray[np.float64]
 
+#: Where the error falls by less than it must, that in the band of the motion must fall by as many
+#: times more: by 5 % of its square, with the usual 1 %.
+IN_BAND = 2.5
+
 
 @dataclass(frozen=True)
 class Evidence:
@@ -45,12 +49,13 @@ class Evidence:
     p_value: float
 
     def is_large(self, least: float) -> bool:
-        """Whether the error falls by at least `least`, on all samples or in the motion's band.
+        """Whether the error falls by at least `least`, or clearly in the band of the motion.
 
         Vibration and noise may be most of the error outside the band. On all samples half of that
         is needed all the same: less is of no use.
         """
-        return self.fall >= least / 2.0 and max(self.fall, self.fall_in_band) >= least
+        clearly = self.fall_in_band >= IN_BAND * least and self.fall >= least / 2.0
+        return self.fall >= least or clearly
 
 
 def held_out_square(fit: Fit, before: Fit) -> float:
