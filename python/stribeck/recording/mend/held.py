@@ -68,14 +68,17 @@ def _of_all_joints(data: Channels) -> list[dict[str, Floats]]:
     if choice is None or choice.source not in groups.get("position", {}).values():
         return []
 
-    def values(column: str) -> Floats:
-        return column_numbers(prepared.source, prepared.table, prepared.row, column)[data.rows]
-
-    return [
+    def values(joint: str) -> dict[str, Floats]:
         # A velocity in another unit than the position says nothing about its steps.
-        {c: values(g[joint]) for c, g in groups.items() if joint in g and c != "velocity"}
-        for joint in groups["position"]
-    ]
+        named = {c: g[joint] for c, g in groups.items() if joint in g and c != "velocity"}
+        return {
+            c: column_numbers(prepared.source, prepared.table, prepared.row, name)[data.rows]
+            for c, name in named.items()
+            if prepared.table.schema[name].is_numeric()
+        }
+
+    # A joint that this file says little of is not waited for.
+    return [one for joint in groups["position"] if len(one := values(joint)) > 1]
 
 
 def _moved(channels: dict[str, Floats], same: Bools, dt: Floats) -> Bools:
