@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -48,11 +49,15 @@ def test_one_event_is_not_everywhere(tmp_path: Path) -> None:
 
 def test_an_effect_below_the_noise_is_large_in_the_band_of_the_motion(tmp_path: Path) -> None:
     """White noise of 0.12 N m hides an offset of 0.015 N m on all samples, not in the band."""
-    small = record(tmp_path, joint(0.015, rows=6000, noise=0.12), "small")
+    small = record(tmp_path, joint(0.015, rows=16000, rate=400.0, noise=0.12), "small")
     before = sb.fit("coulomb", small, starts=1)
     found = evidence(before, sb.fit("coulomb+offset", small, starts=1))
     assert found.fall < 0.01 < found.fall_in_band
-    assert found.is_large(0.01) and not found.is_large(found.fall_in_band / 2.5 + 1e-6)
+    assert found.is_large(0.01, 20)
+    assert not found.is_large(found.fall_in_band / 5.0 + 1e-6, 20)
+    assert not replace(found, p_value=1e-6).is_large(0.01, 20)
+    assert not replace(found, fall=0.004).is_large(0.01, 20)
+    assert replace(found, fall=0.02, fall_in_band=0.0, p_value=0.5).is_large(0.01, 20)
     assert [f.effect for f in sb.diagnose(before, brief=True).findings][:1] == ["offset"]
 
 

@@ -22,8 +22,9 @@ from stribeck.identify.figures import bridged, rms, zero_phase
 Array = NDArray[np.float64]
 
 #: Where the error falls by less than it must, that in the band of the motion must fall by as many
-#: times more: by 5 % of its square, with the usual 1 %.
-IN_BAND = 2.5
+#: times more, and with no larger probability of chance. With the usual 1 % that is a tenth of its
+#: square, a share that counts as structure.
+IN_BAND, CERTAIN = 5.0, 1e-6
 
 
 @dataclass(frozen=True)
@@ -48,14 +49,15 @@ class Evidence:
     fall_in_band: float
     p_value: float
 
-    def is_large(self, least: float) -> bool:
+    def is_large(self, least: float, tried: int) -> bool:
         """Whether the error falls by at least `least`, or clearly in the band of the motion.
 
         Vibration and noise may be most of the error outside the band. On all samples half of that
-        is needed all the same: less is of no use.
+        is needed all the same: less is of no use. It must also be certain, over all effects
+        `tried`.
         """
-        clearly = self.fall_in_band >= IN_BAND * least and self.fall >= least / 2.0
-        return self.fall >= least or clearly
+        clearly = self.fall_in_band >= IN_BAND * least and self.p_value * tried <= CERTAIN
+        return self.fall >= least or (self.fall >= least / 2.0 and clearly)
 
 
 def held_out_square(fit: Fit, before: Fit) -> float:

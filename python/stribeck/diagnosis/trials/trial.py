@@ -315,7 +315,7 @@ def passes_outside_the_band(trial: Trial, tried: int, least: float) -> bool:
 def is_uncertain(trial: Trial, tried: int, least: float) -> bool:
     """Whether a trial predicts better in most blocks, but not by more than chance may."""
     e = trial.evidence
-    falls = e.everywhere and e.is_large(least) and trial.shows_in_band
+    falls = e.everywhere and e.is_large(least, tried) and trial.shows_in_band
     return falls and e.p_value * tried > SIGNIFICANCE and not trial.is_implausible
 
 
@@ -329,7 +329,7 @@ def _is_significant(trial: Trial, tried: int, least: float) -> bool:
 
 def _is_more_than_chance(trial: Trial, tried: int, least: float) -> bool:
     e = trial.evidence
-    return e.is_large(least) and e.p_value * tried <= SIGNIFICANCE
+    return e.is_large(least, tried) and e.p_value * tried <= SIGNIFICANCE
 
 
 def falls_on_all_samples(before: Fit, trial: Trial) -> bool:
