@@ -48,8 +48,9 @@ def test_one_event_is_not_everywhere(tmp_path: Path) -> None:
 
 
 def test_an_effect_below_the_noise_is_large_in_the_band_of_the_motion(tmp_path: Path) -> None:
-    """White noise of 0.12 N m hides an offset of 0.015 N m on all samples, not in the band."""
-    small = record(tmp_path, joint(0.015, rows=16000, rate=400.0, noise=0.12), "small")
+    """White noise of 0.12 N m hides an offset of 0.016 N m on all samples, not in the band."""
+    frame = joint(0.016, rows=16000, rate=400.0, noise=0.12, seed=2)
+    small = record(tmp_path, frame, "small")
     before = sb.fit("coulomb", small, starts=1)
     found = evidence(before, sb.fit("coulomb+offset", small, starts=1))
     assert found.fall < 0.01 < found.fall_in_band
