@@ -76,9 +76,8 @@ def diagnose(
 
     Every effect that the recording can show is added and refitted. It passes if the held-out RMSE
     falls by at least `least_fall` (or by half of it, and in the band of the motion by five times
-    as much), if the fall is significant given the autocorrelation of the residual and the number of
-    effects tried, and if the effects already in the model cannot explain the same with a more
-    flexible shape.
+    as much), if that is significant given the autocorrelation of the residual and the number of
+    effects tried, and if the model cannot explain the same with effects of a more flexible shape.
 
     Parameters
     ----------

@@ -16,8 +16,6 @@ from stribeck.report.diagnosis import (
     explainable_text,
     floor_sentence,
     group_rows,
-    left_after,
-    left_text,
     likely_effects,
     trend_text,
     visible_heading,
@@ -26,6 +24,7 @@ from stribeck.report.diagnosis import (
 from stribeck.report.fit import hardly_explained
 from stribeck.report.improvement import passivity_sentence, stopped_sentence, summary_sentence
 from stribeck.report.numbers import change_text, percent, plain
+from stribeck.report.unexplained import left_after, left_text
 
 if TYPE_CHECKING:
     from stribeck.diagnosis.compare import Comparison

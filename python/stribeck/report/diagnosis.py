@@ -13,18 +13,17 @@ from stribeck.report.layout import bullets, joined, notes_text, paragraph
 from stribeck.report.numbers import confidence_text, confidence_words, hedge, listed, percent, plain
 from stribeck.report.recording import file_name, held_out_meaning
 from stribeck.report.residual import residual_figure
+from stribeck.report.unexplained import left_after
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from stribeck.diagnosis.residual.explainable import Explainable
     from stribeck.diagnosis.residual.noise_floor import NoiseFloor
-    from stribeck.diagnosis.residual.unexplained import Unexplained
     from stribeck.diagnosis.result import Diagnosis, Finding, Pair
     from stribeck.diagnosis.testable import Untestable
     from stribeck.diagnosis.trend import Trend
     from stribeck.diagnosis.visibility.result import Group, SmallestVisible
-    from stribeck.recording.recording import Recording
 
 #: With fewer samples hardly any effect can be significant.
 FEWEST = 300
@@ -262,51 +261,6 @@ def floor_sentence(floor: NoiseFloor, unit: str) -> str:
     if floor.value is None:
         return f"The noise floor cannot be estimated: {floor.why}."
     return noise_floor_sentence(floor.value, unit)
-
-
-def left_after(diagnosis: Diagnosis) -> str:
-    """How much of the error is more than noise once the first finding is added, if asked."""
-    if not diagnosis.unexplained.asked:
-        return ""
-    left = left_text(diagnosis.unexplained, diagnosis.fit.recording)
-    if not diagnosis.findings:
-        return left
-    return f"With {diagnosis.findings[0].effect} added, {left[0].lower()}{left[1:]}"
-
-
-def left_text(left: Unexplained, recording: Recording) -> str:
-    """How much of the error is more than noise, and how much of it was not judged.
-
-    Where other joints of the file move, that they may be the cause.
-    """
-    said = _structure(left)
-    others = next((check.said for check in recording.checks if check.check == "others"), None)
-    if left.is_structure and others is not None:
-        said += f" {others[0].upper()}{others[1:]}."
-    if left.is_partial:
-        said += (
-            f" Not judged are the samples that the fit excludes (see the notes): they cause "
-            f"{percent(left.excluded)} of the squared held-out error of all samples."
-        )
-    return said
-
-
-def _structure(left: Unexplained) -> str:
-    if left.share is None:
-        return "It cannot be estimated from this data how much of the remaining error is noise."
-    if left.share == 0.0:
-        # The held-out error may still exceed the noise floor, as where a recording is short.
-        return "No significant structure remains."
-    if not left.is_structure:
-        return (
-            f"No significant structure remains: {percent(left.share)} of the squared held-out "
-            f"error is more than noise."
-        )
-    where = f"; {left.where}" if left.where and left.where != "everywhere" else ""
-    return (
-        f"Unexplained structure remains: {percent(left.share)} of the squared held-out error is "
-        f"more than noise{where}."
-    )
 
 
 def trend_text(found: Trend | None) -> str:

@@ -12,7 +12,6 @@ from stribeck.report.diagnosis import (
     finding_text,
     floor_sentence,
     hedged,
-    left_text,
     nothing_found,
     trend_text,
     untestable_text,
@@ -28,6 +27,7 @@ from stribeck.report.parameters import (
     temperature_text,
 )
 from stribeck.report.recording import file_name, held_out_meaning
+from stribeck.report.unexplained import left_text
 
 if TYPE_CHECKING:
     from stribeck.diagnosis.loop.add import Addition

@@ -23,8 +23,9 @@ from stribeck.report import (
     improvement as improving,
 )
 from stribeck.report.certificate import certificate_text
-from stribeck.report.diagnosis import left_text, nothing_found, visible_heading
+from stribeck.report.diagnosis import nothing_found, visible_heading
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
+from stribeck.report.unexplained import left_text
 from synthetic import joint, record
 
 

@@ -20,13 +20,13 @@ from stribeck.report.diagnosis import (
     carried_sentence,
     doubts,
     indistinguishable_sentence,
-    left_text,
     untestable_rows,
 )
 from stribeck.report.improvement import stopped_sentence, summary_sentence
 from stribeck.report.numbers import change_text, confidence_words, percent, plain
 from stribeck.report.page import account_page
 from stribeck.report.parameters import parameter_rows
+from stribeck.report.unexplained import left_text
 
 SIDECARS = Path(__file__).resolve().parents[2] / "sidecars"
 #: Janot, Gautier and Brunot 2019: IDIM-LS on this recording, in the units of the recording.
@@ -177,7 +177,10 @@ def section(of: Measured, found: sb.Improvement, folder: Path) -> list[str]:
             picture(finding.plot(), folder, file, alt),
             "",
         ]
-    lines += [f"{stopped_sentence(found)} {left_text(found.unexplained)}", ""]
+    lines += [
+        f"{stopped_sentence(found)} {left_text(found.unexplained, found.final.recording)}",
+        "",
+    ]
     for heading, rows in doubts(found.last):
         lines += [f"{heading}:", "", *(f"- {row}" for row in rows), ""]
     return [*lines, *details(found, name)]

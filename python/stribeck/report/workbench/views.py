@@ -24,7 +24,6 @@ from stribeck.report.diagnosis import (
     doubts,
     errors_sentence,
     indistinguishable_sentence,
-    left_after,
     likely_effects,
     untestable_rows,
 )
@@ -36,6 +35,7 @@ from stribeck.report.parameters import parameter_rows
 from stribeck.report.project import branches
 from stribeck.report.prose import prose, unit
 from stribeck.report.recording import scored_sentence, state_of
+from stribeck.report.unexplained import left_after
 from stribeck.report.workbench.controller import PROJECT, Workbench
 
 if TYPE_CHECKING:
