@@ -22,22 +22,14 @@ def few_events(claim: Claim) -> str | None:
 def one_event(claim: Claim) -> str | None:
     """Which move alone shows the effect; None where it shows without any of them.
 
-    Left out, the held-out error of the other moves falls less than a finding must bring, and by
-    less than half of what it falls with that move.
+    Left out, the held-out error of the other moves falls less than a finding must bring.
     """
     squares = squares_of_moves(claim)
     gain = squares[0] - squares[1]
     best = int(np.argmax(gain))
-    others = [float(square.sum() - square[best]) for square in squares]
-    needed = min(claim.least_fall, _fall(*(float(square.sum()) for square in squares)) / 2.0)
-    rest = _fall(*others)
-    if rest > 0.0 and rest >= needed:
+    left = [float(square.sum() - square[best]) for square in squares]
+    if left[0] > 0.0 and 1.0 - np.sqrt(left[1] / left[0]) >= claim.least_fall:
         return None
     first = claim.rows[move_of(claim) == best][0]
     at = float(claim.before.recording.time[first])
     return f"without the move that begins at {number(at)} s it would not be found"
-
-
-def _fall(without: float, along: float) -> float:
-    """Relative fall of the RMSE from squared errors without and with an effect."""
-    return 1.0 - float(np.sqrt(along / without)) if without > 0.0 else 0.0

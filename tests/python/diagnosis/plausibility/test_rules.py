@@ -193,15 +193,6 @@ def test_one_move_carries_what_one_move_shows(tmp_path: Path) -> None:
     assert weak(only) == reason
 
 
-def test_a_small_effect_of_all_moves_is_found_without_any_of_them(tmp_path: Path) -> None:
-    """Whichever move is left out, it brings a little less than it must, which is no reason."""
-    claim = made(tmp_path, 0.02, "offset")
-    before, after = (fit.rmse_held_out for fit in (claim.before, claim.after))
-    assert before is not None and after is not None
-    just = replace(claim, least_fall=1.0 - after / before)
-    assert one_event(just) is None
-
-
 def test_all_moves_carry_an_offset(offset: Claim) -> None:
     found = Carried.of(offset)
     assert found.share == pytest.approx(0.9, abs=0.02)
