@@ -12,7 +12,10 @@ from stribeck.recording.check import Check
 from stribeck.recording.prepared import Prepared, channel_values
 from stribeck.recording.recording import Column
 
-__all__ = ["Channels", "Layout", "require", "wanted_channels"]
+__all__ = ["MEASURED", "Channels", "Layout", "require", "wanted_channels"]
+
+#: What a logger reads from a joint and its drive.
+MEASURED = ("position", "velocity", "torque", "current", "friction_torque")
 
 
 class Channels:
@@ -42,6 +45,11 @@ class Channels:
         self.rows = rows
         self.sequence = prepared.row[rows]
         self.doubts: list[Check] = []
+
+    @property
+    def measured(self) -> dict[str, Floats]:
+        """The channels that were measured, arrays [n]."""
+        return {c: self.values[c] for c in MEASURED if c in self.values}
 
     def load(self, channel: str) -> None:
         """Read a channel and convert it to SI."""

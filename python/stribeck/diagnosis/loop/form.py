@@ -41,9 +41,9 @@ def of_other_form(
     findings: Sequence[Finding], current: Fit, remains: Unexplained, seed: int
 ) -> dict[str, str]:
     """The effects of a model that have another form, where structure remains, and why."""
-    if not remains.is_structure or explained_by_causes(current) > MOST:
+    if not remains.is_structure:
         return {}
-    return {
+    doubtful = {
         finding.effect: (
             f"a free function of {form.of} explains clearly more: friction depends on it in a way "
             "that no effect of the catalog describes"
@@ -53,6 +53,7 @@ def of_other_form(
         and (form := of_catalog(finding.effect).free_form) is not None
         and _beyond(finding, form, current, seed) > BEYOND
     }
+    return doubtful if doubtful and explained_by_causes(current) <= MOST else {}
 
 
 def _beyond(finding: Finding, form: FreeForm, current: Fit, seed: int) -> float:

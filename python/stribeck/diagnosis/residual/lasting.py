@@ -13,6 +13,8 @@ import numpy as np
 
 from stribeck.fitting.result import Fit
 
+#: Share of the squared error from which it counts as structure.
+STRUCTURE = 0.1
 #: The residual is compared with itself from so many seconds later, after the noise, up to twice as
 #: many, within a move. An oscillation whose mean is zero over the former has one over the latter.
 AFTER = (0.2, 0.3)

@@ -15,7 +15,7 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.base.pool import threads
-from stribeck.diagnosis.residual.lasting import lasting_square
+from stribeck.diagnosis.residual.lasting import STRUCTURE, lasting_square
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import correlation_length
@@ -29,9 +29,9 @@ FEWEST_PAIRS = 300
 REACHED = 1.5
 #: Correlation length in samples from which a residual is smooth in time.
 SMOOTH = 10.0
-#: A noise floor above this share of the error says that no state explains any of it; noise does
-#: not last, so that a residual of which more than this share does is none.
-AS_LARGE, LASTS = 0.9, 0.1
+#: A noise floor above this share of the error says that no state explains any of it. If much of the
+#: residual lasts all the same, it is no noise.
+AS_LARGE = 0.9
 #: Travel in strokes below which hardly any position is passed twice.
 ONCE = 1.5
 
@@ -76,7 +76,7 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     # The nearest half says most about zero distance.
     near = gap <= np.median(gap)
     found = float(min(np.sqrt(_at_zero(gap[near], gamma[near])), fit.rmse))
-    if found > AS_LARGE * fit.rmse and lasting_square(fit) > LASTS * fit.rmse**2:
+    if found > AS_LARGE * fit.rmse and lasting_square(fit) > STRUCTURE * fit.rmse**2:
         why = (
             "repeats of the same state differ as much as any two samples, though the residual "
             "lasts: its cause is in none of the recorded channels, such as the motion of other "

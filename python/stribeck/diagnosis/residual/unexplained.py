@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.diagnosis.residual.explainable import Explainable
-from stribeck.diagnosis.residual.lasting import lasting_square
+from stribeck.diagnosis.residual.lasting import STRUCTURE, lasting_square
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.residual.regimes import regime_rows
 from stribeck.diagnosis.residual.shocks import Shocks, shocks
@@ -25,8 +25,6 @@ from stribeck.effect.position import stroke_constants
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 
-#: Share of the squared error from which it counts as structure.
-STRUCTURE = 0.1
 #: Share of the squared error above the noise floor that is a reason for a less strict test.
 SUSPICIOUS = 0.15
 #: A regime is named where the error exceeds this multiple of the average.

@@ -11,15 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stribeck.recording.arrays import Bools, Floats
+from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.cells import column_numbers
-from stribeck.recording.channels import Channels
+from stribeck.recording.channels import MEASURED, Channels
 from stribeck.recording.names import wide_groups
 from stribeck.recording.rows import quantisation_step
 
 __all__ = ["Held"]
 
-_MEASURED = ("position", "velocity", "torque", "current", "friction_torque")
 #: A joint at this many steps of its position per sample cannot stay where it is.
 _STEPS = 3.0
 #: With such a share of the rows in motion that repeat the row before, they are no exception.
@@ -41,9 +40,11 @@ class Held:
         that each joint has the same samples.
         """
         held = np.zeros(len(data.rows), dtype=bool)
-        joints = _of_all_joints(data) or [_of_one_joint(data)]
-        time = data.values.get("time")
-        if time is None or any("position" not in one or len(one) < 2 for one in joints):
+        time, position = data.values.get("time"), data.values.get("position")
+        if time is None or position is None or not np.any(np.diff(position) == 0.0):
+            return cls(held)
+        joints = _of_all_joints(data) or [data.measured]
+        if any("position" not in one or len(one) < 2 for one in joints):
             return cls(held)
         same = np.all([np.diff(v) == 0.0 for one in joints for v in one.values()], axis=0)
         if not same.any():
@@ -52,18 +53,16 @@ class Held:
         held[1:] = same & moved
         if held.sum() <= _MANY * moved.sum():
             return cls(held)
-        held[1:] = same & (_lengths(same) <= _longest(same, moved))
+        # At rest the logger holds values no longer than in motion: what lasts longer is rest.
+        length = _lengths(same)
+        held[1:] = same & (length <= length[same & moved].max())
         return cls(held, always=True)
-
-
-def _of_one_joint(data: Channels) -> dict[str, Floats]:
-    return {c: data.values[c] for c in _MEASURED if c in data.values}
 
 
 def _of_all_joints(data: Channels) -> list[dict[str, Floats]]:
     """The measured channels of all joints, as in the file; none where it has one joint."""
     prepared = data.prepared
-    groups = {c: g for c, g in wide_groups(prepared.table.columns).items() if c in _MEASURED}
+    groups = {c: g for c, g in wide_groups(prepared.table.columns).items() if c in MEASURED}
     choice = prepared.choices.get("position")
     if choice is None or choice.source not in groups.get("position", {}).values():
         return []
@@ -77,7 +76,7 @@ def _of_all_joints(data: Channels) -> list[dict[str, Floats]]:
             if prepared.table.schema[name].is_numeric()
         }
 
-    # A joint that this file says little of is not waited for.
+    # A joint without two channels of numbers says nothing.
     return [one for joint in groups["position"] if len(one := values(joint)) > 1]
 
 
@@ -100,12 +99,7 @@ def _before(values: Floats) -> Floats:
     return np.where(at >= 0, values[np.maximum(at, 0)], 0.0)
 
 
-def _lengths(same: Bools) -> Floats:
+def _lengths(same: Bools) -> Ints:
     """How many rows hold in a row around each that does, [n - 1]."""
     stretch = np.cumsum(np.diff(same, prepend=False))
-    return np.bincount(stretch, minlength=1)[stretch].astype(np.float64)
-
-
-def _longest(same: Bools, moved: Bools) -> float:
-    """The longest time that values are held in motion, in rows; a joint may rest longer."""
-    return float(_lengths(same)[same & moved].max())
+    return np.bincount(stretch)[stretch]

@@ -13,7 +13,6 @@ __all__ = ["drop_bad_rows"]
 
 #: From this share on, rows are no exception: the file is as it was meant.
 _FEW = 0.05
-_MEASURED = ("position", "velocity", "torque", "current", "friction_torque")
 _EFFORTS = ("torque", "current", "friction_torque")
 #: A clipped torque stands at its limit this often in a row, and this many times as often in all
 #: as it is near it.
@@ -27,7 +26,8 @@ def drop_bad_rows(data: Channels, run: Ints) -> Ints:
 
     These are rows of zeros in the middle of a motion, rows that repeat the row before while the
     joint moves, torques that stand alone far outside of all others, and torques clipped at the
-    limit of a sensor. Each kind is left out, with a note, if there are few of it.
+    limit of a sensor. Each kind is left out, with a note, if there are few of it; repeated rows are
+    also where they are many.
     """
     if data.prepared.settings.average or len(run) < 20:
         return run
@@ -78,17 +78,13 @@ def _singular(what: str) -> str:
     return f"{ {'have': 'has'}.get(verb, verb + 's') } {rest}"
 
 
-def _measured(data: Channels) -> dict[str, Floats]:
-    return {c: data.values[c] for c in _MEASURED if c in data.values}
-
-
 def _effort(data: Channels) -> Floats | None:
     return next((data.values[c] for c in _EFFORTS if c in data.values), None)
 
 
 def _zeros(data: Channels) -> Bools:
     """Rows in which every measured channel is zero, and the position was not nearby."""
-    channels = _measured(data)
+    channels = data.measured
     none = np.zeros(len(data.rows), dtype=bool)
     position = channels.get("position")
     if position is None or len(channels) < 2:
