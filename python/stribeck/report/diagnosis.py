@@ -183,7 +183,7 @@ def _too_few(last: Diagnosis) -> str:
         return ""
     return (
         f"This recording says little about what the model {last.fit.model.spec} lacks: only "
-        f"{count} samples are fitted to, in which the joint moves clearly faster than the noise of "
+        f"{count} samples can be fitted, in which the joint moves clearly faster than the noise of "
         f"its velocity."
     )
 

@@ -78,9 +78,9 @@ def noise_floor(fit: Fit) -> NoiseFloor:
     found = float(min(np.sqrt(_at_zero(gap[near], gamma[near])), fit.rmse))
     if found > AS_LARGE * fit.rmse and lasting_square(fit) > STRUCTURE * fit.rmse**2:
         why = (
-            "repeats of the same state differ as much as any two samples, though the residual "
-            "lasts: its cause is in none of the recorded channels, such as the motion of other "
-            "joints"
+            "repeats of the same state differ as much as any two samples, and yet the residual is "
+            "no noise, since it lasts. Its cause is not recorded (the motion of other joints, for "
+            "example)"
         )
         return NoiseFloor(None, why)
     return NoiseFloor(found)
