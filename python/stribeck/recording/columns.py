@@ -157,7 +157,7 @@ class _Search:
         plain = [p for p in candidates if p.index is None]
         if not plain and channel in self.wide:
             plain = self._of_joint(channel)
-        elif not plain and len(candidates) == 1:
+        elif not plain and len(candidates) == 1 and not self._is_of_another(candidates[0]):
             plain = candidates
         if not plain:
             return
@@ -178,6 +178,10 @@ class _Search:
         self.take(channel, best[0].name)
         if rank > 2 and best[0].index is None:
             self.notes.append(f"{channel} is read from '{best[0].name}', by part of its name")
+
+    def _is_of_another(self, column: ParsedName) -> bool:
+        """Whether a column is of another joint than the one that was named in a wide file."""
+        return bool(self.wide) and self.joint is not None and column.index != self.joint
 
     def _find_beside(self, channel: str, candidates: Sequence[ParsedName]) -> None:
         """The one column of a reference or motor channel, or that of the joint that was named.

@@ -319,3 +319,16 @@ def test_columns_named_by_joint_and_quantity(tmp_path):
     recording = sb.read(frame, joint="arm_1_joint")
     np.testing.assert_array_equal(recording.velocity, table["arm_1_joint_velocity"])
     assert recording.columns["torque"].source == "arm_1_joint_effort"
+
+
+@pytest.mark.parametrize("names", [("elbow_joint_{}", "wrist_joint_{}"), ("{}_1", "{}_2")])
+def test_the_torque_of_another_joint_is_not_taken(names):
+    """The only torque of the file is not that of the joint that was named."""
+    t = np.arange(500) / 100.0
+    table = {"time": t, names[1].format("torque"): np.sign(np.cos(t))}
+    for name in names:
+        table |= {name.format("position"): np.sin(t), name.format("velocity"): np.cos(t)}
+    joints = [name.format("").strip("_") for name in names]
+    with pytest.raises(RecordingError, match="there is no torque column"):
+        read(pl.DataFrame(table), joint=joints[0])
+    assert read(pl.DataFrame(table), joint=joints[1]).rows == 500

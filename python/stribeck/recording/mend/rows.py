@@ -5,12 +5,15 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
+from stribeck.base.errors import RecordingError
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.channels import Channels
 from stribeck.recording.mend.held import Held
 
 __all__ = ["drop_bad_rows"]
 
+#: Rows with values of their own, of which nothing is asked in a shorter file.
+_NEEDED = 20
 #: From this share on, rows are no exception: the file is as it was meant.
 _FEW = 0.05
 _EFFORTS = ("torque", "current", "friction_torque")
@@ -28,8 +31,13 @@ def drop_bad_rows(data: Channels, run: Ints) -> Ints:
     joint moves, torques that stand alone far outside of all others, and torques clipped at the
     limit of a sensor. Each kind is left out, with a note, if there are few of it; repeated rows are
     also where they are many.
+
+    Raises
+    ------
+    RecordingError
+        Nearly all rows repeat the row before.
     """
-    if data.prepared.settings.average or len(run) < 20:
+    if data.prepared.settings.average or len(run) < _NEEDED:
         return run
     run = _left_out(data, run, _zeros(data), "hold zeros in the middle of a motion (drop-outs)")
     run = _without_held(data, run)
@@ -61,6 +69,11 @@ def _without_held(data: Channels, run: Ints) -> Ints:
     held = Held.of(data)
     if not held.always:
         return _left_out(data, run, held.rows, "repeat the row before while the joint moves")
+    if held.rows.sum() > len(run) - _NEEDED:
+        raise RecordingError(
+            f"{data.path}: {int(held.rows.sum())} of {len(run)} rows repeat the row before while "
+            f"the joint moves: the channels were hardly updated; record again"
+        )
     written, changed = (
         1e3 * float(np.median(np.diff(data.values["time"][kept])))
         for kept in (slice(None), ~held.rows)

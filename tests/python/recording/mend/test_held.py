@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import polars as pl
+import pytest
 from stribeck import read
+from stribeck.base.errors import RecordingError
 from synthetic import joint
 
 ROWS = 4000
@@ -28,6 +30,13 @@ def test_a_logger_that_writes_faster_than_channels_change(write):
     assert "written every 3.33 ms" in note and "change about every 10 ms" in note
     np.testing.assert_array_equal(recording.time, frame["time"].to_numpy()[changes])
     assert recording.gaps == 0
+
+
+def test_a_log_that_was_not_updated_is_refused(write):
+    frame = joint(rows=ROWS).select("time", *CHANNELS)
+    frozen = held(frame, np.array([0, 2000]), CHANNELS)
+    with pytest.raises(RecordingError, match="3998 of 4000 rows repeat the row before"):
+        read(write(frozen))
 
 
 def test_a_rest_that_lasts_longer_is_kept(write):
