@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from stribeck.base.errors import SpecError, listed
+from stribeck.base.errors import SpecError, joint_called, listed
 from stribeck.cli.common import echo_result, json_option, say, seed_option
 from stribeck.cli.outputs import DESCRIPTION, CheckedCommand
 from stribeck.cli.unread import refuse_unread
@@ -79,7 +79,8 @@ def export(
         )
         for joint, model in friction.items():
             if "delay" in model.effects:
-                say(f"note: joint {joint}: the delay belongs to the recording: it is not exported")
+                said = "the delay belongs to the recording: it is not exported"
+                say(f"note: {joint_called(joint)}: {said}")
         echo_result(written, as_json)
         return
     assert output is not None

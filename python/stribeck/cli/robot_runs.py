@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import click
 
+from stribeck.base.errors import joint_called
 from stribeck.cli.common import say
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.progress import RowProgress
@@ -24,11 +25,11 @@ def read_runs(
 ) -> RobotMotion:
     """Read the recordings of all joints, and refuse channels that contradict each other."""
     motion = read_motion(described, runs, reading, cutoff)
-    for recording in motion.joints:
+    for name, recording in zip(described.names, motion.joints, strict=True):
         recording.require_consistent()
         for check in recording.checks:
             if not check.ok:
-                say(f"note: joint {recording.joint}: accepted with --trust: {check.said}")
+                say(f"note: {joint_called(name)}: accepted with --trust: {check.said}")
     return motion
 
 

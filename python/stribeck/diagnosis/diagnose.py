@@ -14,6 +14,7 @@ from stribeck.diagnosis.all_samples import (
     with_errors_on_all_samples,
     with_remainder_on_all_samples,
 )
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import NotClaimed, impossible
 from stribeck.diagnosis.residual.explainable import explainable
@@ -42,8 +43,6 @@ from stribeck.recording.several.concat import Recordings
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-#: Least relative fall of the held-out RMSE that a finding must bring.
-LEAST_FALL = 0.01
 #: Why an effect is not claimed whose own form is not that of what is missing.
 FORM = (
     "the torque depends on the same quantity in another form: a free function of it explains more"

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from stribeck.base import linear
 from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.carrying import FEWEST_MOVES, fewest
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import batches, correlation_length, covariance_of
 from stribeck.identify.estimates import APART
@@ -31,8 +32,6 @@ Array = NDArray[np.float64]
 DRY, VISCOUS, LOAD = "dry friction", "viscous friction", "load"
 #: Significance level of a trend, over all parts together.
 SIGNIFICANCE = 0.001
-#: Least share by which the RMSE must fall.
-LEAST_FALL = 0.01
 #: Standard errors within which shares of change are the same.
 SAME = 2.0
 #: A part with a smaller share of the torque says nothing about a change of its own.

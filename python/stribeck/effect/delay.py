@@ -24,8 +24,11 @@ def _where(before: Identified, after: Identified) -> str:
     tau = after.model.value("delay")
     said = (
         f"the torque {_way(tau)} the motion by {number(1e3 * abs(tau))} ms "
-        f"({number(abs(tau) * after.recording.rate_hz)} samples), most visible at reversals"
+        f"({number(abs(tau) * after.recording.rate_hz)} samples)"
     )
+    velocity = after.recording.velocity[after.rows]
+    if velocity.min() < 0.0 < velocity.max():
+        said = f"{said}, most visible at reversals"
     late = recorded_lag(after.recording)
     if late is None or not late.exceeds(abs(tau) / ALIKE):
         return said

@@ -59,13 +59,20 @@ def _where(before: Identified, after: Identified) -> str:
         float(np.hypot(m.value(f"ripple_{part}cos"), m.value(f"ripple_{part}sin")))
         for part in ("", "second_")
     )
+    digits = _digits(after.recording, period)
     turn = ""
     if after.recording.joint_kind == "revolute":
-        turn = f" ({number(2.0 * np.pi / period)} per turn)"
+        turn = f" ({number(2.0 * np.pi / period, digits)} per turn)"
     return (
         f"a torque of {number(np.hypot(first, second))} {m.torque_unit} repeats every "
-        f"{number(period)} {m.position_unit}{turn}, the same in both directions"
+        f"{number(period, digits)} {m.position_unit}{turn}, the same in both directions"
     )
+
+
+def _digits(recording: Recording, period: float) -> int:
+    """Digits of a period that is known to a tenth over the stroke."""
+    periods = 1.0 if recording.position is None else float(np.ptp(recording.position)) / period
+    return 2 + max(1, round(np.log10(max(periods, 1.0))))
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:

@@ -13,8 +13,8 @@ import polars as pl
 from stribeck.base.arguments import door
 from stribeck.base.errors import ProjectError, SpecError, nearest
 from stribeck.base.shown import Plotted
-from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.diagnose import diagnose as diagnose_fit
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.loop.add import add as add_to
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.search import MOST_STEPS, improvement_paths

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from stribeck.base.errors import RecordingError, listed, nearest, option
+from stribeck.base.errors import RecordingError, joint_called, listed, nearest, option
 from stribeck.base.units import SI, Unit, parse_unit
 from stribeck.recording.names import (
     BESIDE,
@@ -284,5 +284,5 @@ def _wide_sentence(path: str, wide: Mapping[str, Mapping[str, str]]) -> str:
     return (
         f"{path}: the file holds {len(first_group)} joints side by side "
         f"({listed(first_group.values())}): choose one with {option('joint', first)}, or by its "
-        f"columns, e.g. joint {first} with {advice}"
+        f"columns, e.g. {joint_called(first)} with {advice}"
     )

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from stribeck.base.errors import joint_called
 from stribeck.report.layout import joined, paragraph, table
 from stribeck.report.numbers import (
     DASH,
@@ -199,10 +200,12 @@ def _failures(failures: Sequence[Failure]) -> str:
 
 def failure_sentences(failures: Sequence[Failure]) -> list[str]:
     """A line for each file, joint and reason; the file once in it."""
-    return [
-        failure.reason
-        if failure.reason.startswith(failure.file) and failure.joint is None
-        else f"{failure.file}{'' if failure.joint is None else f', joint {failure.joint}'}: "
-        f"{failure.reason.removeprefix(failure.file).removeprefix(': ')}"
-        for failure in failures
-    ]
+    return [_failure_sentence(failure) for failure in failures]
+
+
+def _failure_sentence(failure: Failure) -> str:
+    if failure.joint is None and failure.reason.startswith(failure.file):
+        return failure.reason
+    joint = "" if failure.joint is None else f", {joint_called(failure.joint)}"
+    reason = failure.reason.removeprefix(failure.file).removeprefix(": ")
+    return f"{failure.file}{joint}: {reason}"

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from stribeck.base.errors import joint_called
 from stribeck.recording.several.paths import run_name
 from stribeck.report.diagnosis import untestable_text
 from stribeck.report.layout import bullets, joined, paragraph, table
@@ -109,7 +110,7 @@ def _not_read(inspection: Inspection) -> str:
 
 def _protocols(joint: str, found: tuple[Protocol, ...]) -> str:
     """The test-bench protocols of a joint, and how each becomes points."""
-    of = f" of joint {joint}" if joint else ""
+    of = f" of {joint_called(joint)}" if joint else ""
     heading = f"Protocols{of}, which `stribeck points --method METHOD` turns into points:"
     rows = [f"{p.method}: {p.count} {p.says}" for p in found]
     return bullets(heading, rows)

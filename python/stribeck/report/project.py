@@ -6,6 +6,7 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from stribeck.base.errors import joint_called
 from stribeck.diagnosis.trials.trial import TIE
 from stribeck.effect.describe import physically
 from stribeck.report.comparison import comparison_figure, comparison_text
@@ -49,7 +50,7 @@ def project_text(project: Project) -> str:
     """The whole project: tree, what was rejected, and the current node."""
     count = len(project.tree)
     joint = project.source.reading.get("joint")
-    of = f"{Path(project.source.path).name}{f', joint {joint}' if joint else ''}"
+    of = f"{Path(project.source.path).name}{f', {joint_called(joint)}' if joint else ''}"
     return joined(
         f"{project.path.name}: {count} model{'s' * (count != 1)} of {of}",
         "Held-out error of each node, and its change from the parent node:",

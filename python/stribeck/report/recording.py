@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from stribeck.base.errors import joint_called
 from stribeck.report.numbers import percent, plain, thousands
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ REGIMES = {
 
 def recording_text(r: Recording) -> str:
     """A recording in one line."""
-    joint = f", joint {r.joint}" if r.joint else ""
+    joint = f", {joint_called(r.joint)}" if r.joint else ""
     return (
         f"<Recording {Path(r.path).name}{joint}: {r.rows} rows, {r.runs} run"
         f"{'s' if r.runs > 1 else ''}, {r.rate_hz:.4g} Hz, {r.joint_kind}, {r.torque_unit}>"
@@ -44,7 +45,7 @@ def recording_text(r: Recording) -> str:
 def file_name(recording: Recording) -> str:
     """The recording's file, and its joint where it has a name."""
     name = Path(recording.path).name
-    return f"{name}, joint {recording.joint}" if recording.joint else name
+    return f"{name}, {joint_called(recording.joint)}" if recording.joint else name
 
 
 def state_of(check: Check) -> Literal["ok", "open", "wrong"]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stribeck.base.errors import joint_called
 from stribeck.report.channels import torque_name
 from stribeck.report.numbers import MINUS, plain, thousands
 from stribeck.report.style import AFTER, BEFORE, FLOOR, MEASURED, new_figure, style
@@ -39,7 +40,7 @@ def _of_joint(study: Study, joint: str | None) -> list[tuple[str, str, Entry]]:
 
 
 def _name(study: Study, joint: str | None) -> str:
-    return "" if joint is None else f", joint {joint}"
+    return "" if joint is None else f", {joint_called(joint)}"
 
 
 def error_figure(study: Study, joint: str | None) -> Figure:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from stribeck.base.errors import joint_called
 from stribeck.report.interactive.study_errors import study_errors
 from stribeck.report.numbers import MINUS, plain
 from stribeck.report.page import sections_page
@@ -38,7 +39,7 @@ def study_page(study: Study, command: str = "") -> str:
     """
     plots: dict[str, figure] = {}
     for joint, data in study.joints.items():
-        of = "" if joint is None else f", joint {joint}"
+        of = "" if joint is None else f", {joint_called(joint)}"
         slow = f"|v| < {plain(data.low_speed, 2)} {data.velocity_unit}"
         plots[f"All speeds{of}"] = study_errors(study, joint)
         plots[f"Low speed, {slow}{of}"] = study_errors(study, joint, low_speed=True)

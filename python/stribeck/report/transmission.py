@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from stribeck.base.errors import joint_called
 from stribeck.report.layout import bullets
 from stribeck.report.numbers import plain
 
@@ -13,7 +14,9 @@ if TYPE_CHECKING:
 
 def transmission_text(transmission: Transmission | str, joint: str = "") -> str:
     """Stiffness, backlash, hysteresis, and the side on which friction acts."""
-    heading = f"Transmission{f' of joint {joint}' if joint else ''} (motor minus joint encoder):"
+    heading = (
+        f"Transmission{f' of {joint_called(joint)}' if joint else ''} (motor minus joint encoder):"
+    )
     if isinstance(transmission, str):
         return bullets(heading, [f"cannot be measured: {transmission}"])
     t = transmission

@@ -9,7 +9,7 @@ from typing import Protocol
 
 import numpy as np
 
-from stribeck.base.errors import FitError, listed, nearest, option
+from stribeck.base.errors import FitError, joint_called, listed, nearest, option
 from stribeck.base.pool import serial_linear_algebra
 from stribeck.fitting.fit import fit
 from stribeck.identify.scaling import bounds, model_for
@@ -263,8 +263,8 @@ def check_runs(motion: RobotMotion, payload: Sequence[str]) -> None:
     for name, moving in zip(motion.robot.names, motion.scored.T, strict=True):
         if not moving.any():
             raise FitError(
-                f"{motion.path}: joint {name} does not move, so its friction cannot be identified: "
-                f"record a motion of all joints"
+                f"{motion.path}: {joint_called(name)} does not move, so its friction "
+                f"cannot be identified: record a motion of all joints"
             )
     runs = motion.joints[0].run_names
     for run in payload:

@@ -11,7 +11,8 @@ import numpy as np
 from stribeck.base.errors import FitError, joint_called
 from stribeck.base.pool import serial_linear_algebra
 from stribeck.base.shown import Shown
-from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
+from stribeck.diagnosis.diagnose import diagnose, with_visibility
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.fitting.fit import fit
 from stribeck.robot.causes import Found, chance, rigid_causes

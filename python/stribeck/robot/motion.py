@@ -11,7 +11,7 @@ import psutil
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.base.errors import RecordingError, option
+from stribeck.base.errors import RecordingError, joint_called, option
 from stribeck.base.low_pass import zero_phase
 from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadOptions, split_pairs
@@ -82,9 +82,9 @@ class RobotMotion:
             Hz; default: ten times the bandwidth of the fastest joint's motion.
         """
         first = joints[0]
-        for recording in joints:
+        for name, recording in zip(robot.names, joints, strict=True):
             if recording.position is None:
-                raise RecordingError(f"{recording.path}: joint {recording.joint} has no position")
+                raise RecordingError(f"{recording.path}: {joint_called(name)} has no position")
             if not np.array_equal(recording.time, first.time):
                 raise RecordingError(
                     f"{recording.path}: the joints have different samples; remove rows in which a "

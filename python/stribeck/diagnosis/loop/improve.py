@@ -19,7 +19,7 @@ from stribeck.diagnosis.all_samples import (
     with_excerpt_note,
     with_remainder_on_all_samples,
 )
-from stribeck.diagnosis.diagnose import LEAST_FALL
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.loop.determined import known_combinations, undetermined
 from stribeck.diagnosis.loop.passive import MadePassive, cost_of_passivity
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep

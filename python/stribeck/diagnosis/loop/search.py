@@ -6,7 +6,8 @@ from collections.abc import Callable, Collection, Generator, Iterator, Mapping, 
 from dataclasses import dataclass, replace
 
 from stribeck.base.errors import FitError
-from stribeck.diagnosis.diagnose import LEAST_FALL, diagnose, with_visibility
+from stribeck.diagnosis.diagnose import diagnose, with_visibility
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.loop.form import of_other_form
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, trials_of

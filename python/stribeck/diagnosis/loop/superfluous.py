@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from stribeck.base.errors import StribeckError
 from stribeck.base.memo import Memo
 from stribeck.base.pool import on_each
+from stribeck.diagnosis.least_fall import reduced
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, evidence, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST
@@ -116,7 +117,11 @@ def needed(findings: Sequence[Finding], current: Fit, least: float, seed: int) -
         chance = evidence(without, current).p_value
         # Among all effects a finding must be significant; there, it needs no further proof.
         doubtful = chance * len(effect_ids()) > SIGNIFICANCE
-        if rise < least / 2 or chance > SIGNIFICANCE or (doubtful and lost.statistic <= SIMPLEST):
+        if (
+            rise < reduced(least)
+            or chance > SIGNIFICANCE
+            or (doubtful and lost.statistic <= SIMPLEST)
+        ):
             rises[finding.effect] = lost.statistic
     return Needed(min(rises, key=lambda e: rises[e]) if rises else None, certainty, gain)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stribeck.diagnosis.carrying import FEWEST_MOVES
+from stribeck.diagnosis.least_fall import reduced
 from stribeck.diagnosis.plausibility.carried import Carried, move_of, squares_of_moves
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
@@ -30,7 +31,7 @@ def one_event(claim: Claim) -> str | None:
     best = int(np.argmax(gain))
     others = [float(square.sum() - square[best]) for square in squares]
     whole = _fall(*(float(square.sum()) for square in squares))
-    needed = claim.least_fall if whole >= claim.least_fall else claim.least_fall / 2.0
+    needed = claim.least_fall if whole >= claim.least_fall else reduced(claim.least_fall)
     if others[0] > 0.0 and _fall(*others) >= needed:
         return None
     first = claim.rows[move_of(claim) == best][0]

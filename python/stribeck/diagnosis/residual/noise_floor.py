@@ -19,6 +19,7 @@ from stribeck.diagnosis.residual.lasting import STRUCTURE, lasting_square
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.fitting.result import Fit
 from stribeck.identify.covariance import correlation_length
+from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
@@ -34,6 +35,8 @@ SMOOTH = 10.0
 AS_LARGE = 0.9
 #: Travel in strokes below which hardly any position is passed twice.
 ONCE = 1.5
+#: Turns from which the angle within a turn is a state of its own.
+TURNS = 2.0
 
 
 @dataclass(frozen=True)
@@ -125,6 +128,15 @@ def _at_zero(gap: Array, gamma: Array) -> float:
     return mean
 
 
+def _angle_in_turn(r: Recording, rows: NDArray[np.intp]) -> list[Array]:
+    """Cosine and sine of a joint that turns round and round: a ripple repeats with each turn."""
+    if r.position is None or r.joint_kind != "revolute":
+        return []
+    if np.ptp(r.position[rows]) < TURNS * 2.0 * np.pi:
+        return []
+    return [np.cos(r.position[rows]), np.sin(r.position[rows])]
+
+
 def state_features(fit: Fit, rows: NDArray[np.intp]) -> Array:
     """The channels that friction may depend on, scaled to unit variance, array [m, k]."""
     r = fit.recording
@@ -138,6 +150,7 @@ def state_features(fit: Fit, rows: NDArray[np.intp]) -> Array:
         r.temperature[rows] if r.temperature is not None else None,
         load[rows] if load is not None else None,
         np.sqrt(travel),
+        *_angle_in_turn(r, rows),
     ]
     scaled = [(c - c.mean()) / c.std() for c in channels if c is not None and c.std() > 1e-12]
     # Opposite directions are different states, at any speed.

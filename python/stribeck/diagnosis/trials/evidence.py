@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from stribeck.diagnosis.least_fall import reduced
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.identify.added_torque import added_torque_test
@@ -57,7 +58,7 @@ class Evidence:
         `tried`.
         """
         clearly = self.fall_in_band >= IN_BAND * least and self.p_value * tried <= CERTAIN
-        return self.fall >= least or (self.fall >= least / 2.0 and clearly)
+        return self.fall >= least or (self.fall >= reduced(least) and clearly)
 
 
 def held_out_square(fit: Fit, before: Fit) -> float:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.flexible_shape import flexible_columns
+from stribeck.diagnosis.least_fall import reduced
 from stribeck.diagnosis.trials.evidence import Difference, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial
 from stribeck.fitting.result import Fit
@@ -139,7 +140,7 @@ class FlexibleRefit:
         if advantage > TIE:
             return False
         fall, p_value = self.beside_columns(trial)
-        if fall < least / 2 or p_value * tried > SIGNIFICANCE:
+        if fall < reduced(least) or p_value * tried > SIGNIFICANCE:
             return True
         kept = float(np.sum(self.held_out**2)) * (1.0 - (1.0 - fall) ** 2)
         alone = held_out_square(self.before, self.before) - held_out_square(trial.fit, self.before)

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.base.pool import on_each
+from stribeck.diagnosis.least_fall import reduced
 from stribeck.diagnosis.measurement.other_acceleration import OTHER_ACCELERATION
 from stribeck.diagnosis.measurement.table import (
     imitating,
@@ -114,7 +115,7 @@ class _Rivals:
         One that predicts better at all need not add much.
         """
         better = self.advantage(trial)
-        return better > TIE or self.leave(trial, tried, 0.0 if better > 0.0 else least / 2)
+        return better > TIE or self.leave(trial, tried, 0.0 if better > 0.0 else reduced(least))
 
     def share_of(self, trial: Trial) -> float:
         """What they explain of the squared held-out error, as a share of what a trial does.
@@ -160,14 +161,14 @@ def without_imitations(
         better = rivals.advantage(trial)
         if unseen:
             # Its simpler part shows nothing alone: the wider one must also add to the causes.
-            stands = better > SIMPLEST and rivals.leave(trial, tried, least / 2)
+            stands = better > SIMPLEST and rivals.leave(trial, tried, reduced(least))
         else:
             stands = rivals.let_stand(trial, tried, least)
         if not stands:
             sift = sift.instead(trial, _explained(trial, rivals, better))
             continue
         addition = _beside_simpler(trial, passed)
-        if addition is not None and not addition.leave(trial, tried, least / 2):
+        if addition is not None and not addition.leave(trial, tried, reduced(least)):
             reason = f"{addition.largest} explains what it adds to {simpler_effect(trial.effect)}"
             sift = sift.instead(trial, Sifted(demoted=(Doubted(trial, reason),)))
         elif min(r.advantage(trial) for r in (rivals, addition) if r is not None) <= SIMPLEST:

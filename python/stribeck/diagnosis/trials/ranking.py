@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -30,10 +31,13 @@ from stribeck.diagnosis.trials.trial import (
 )
 from stribeck.effect.describe import is_friction, where
 from stribeck.fitting.result import Fit
+from stribeck.identify.figures import rms
 from stribeck.models.catalog import simpler_effect
 
 #: A tie with a smaller weight changes no confidence that is shown.
 NEGLIGIBLE = 0.005
+#: Two effects whose torques differ by less than this share have the same torque.
+SAME = 0.02
 #: An effect that explains less than this share of the squared error above the noise floor, and of
 #: that in the band of the motion, is not reported, however significant: much larger causes remain.
 MATERIAL = 0.05
@@ -59,7 +63,7 @@ def ranked(
 
     Without findings where even the best explains hardly any of the unexplained error.
     """
-    good = list(sift.stand)
+    good = _simplest_first(before, sift.stand)
     if not good:
         return _none_but_demoted(before, sift, tried, floor)
     best = good[0]
@@ -99,6 +103,23 @@ def ranked(
         made.append(finding_of(before, t, weight, others, floor))
     besides = _none_but_demoted(before, sift, tried, floor, best, claimed)
     return replace(besides, findings=tuple(made))
+
+
+def _simplest_first(before: Fit, stand: Sequence[Trial]) -> list[Trial]:
+    """Trials from the best on, without it where a torque that it contains explains nearly as much.
+
+    What a spring brings beyond its mean, an offset, is asked in the next step.
+    """
+    good = list(stand)
+    if not good or is_friction(good[0].effect):
+        return good
+    simpler = next((t for t in good[1:] if t.effect == simpler_effect(good[0].effect)), None)
+    if simpler is None:
+        return good
+    level, best, other = (held_out_square(f, before) for f in (before, good[0].fit, simpler.fit))
+    if level - other < ALIKE * (level - best):
+        return good
+    return [simpler, *(t for t in good[1:] if t is not simpler)]
 
 
 def _none_but_demoted(
@@ -196,12 +217,14 @@ def _doubtful_ties(
 ) -> dict[str, float]:
     """Weights of the effects that may not be claimed, and predict as well as the best that may.
 
-    They are alternatives all the same: another cause, that the catalog does not hold, may have the
-    same torque. So are those that gain only outside the band of the motion, such as the shocks of
-    a backlash, which an elasticity imitates. Friction acts in the band: none of these replaces it.
+    They are alternatives all the same: another cause, that the catalog does not hold, may have such
+    a torque. So are those that gain only outside the band of the motion, such as the shocks of a
+    backlash, which an elasticity imitates. Friction acts in the band: none of these replaces it.
+    An effect with impossible values that has the very torque of the best is no alternative.
     """
     rivals = () if is_friction(best.effect) else sift.rivals
-    trials = [*(row.trial for row in (*sift.demoted, *sift.refused)), *rivals]
+    refused = [row.trial for row in sift.refused if not _only_imitates(row.trial, best, before)]
+    trials = [*(row.trial for row in sift.demoted), *refused, *rivals]
     left = structure_share(best.fit, floor)
 
     def weight(trial: Trial) -> float:
@@ -215,6 +238,17 @@ def _doubtful_ties(
     adds = on_each(lambda trial: adds_to(best, trial, tried, least, seed), alike)
     apart = [trial.effect for trial, more in zip(alike, adds, strict=True) if more]
     return {t.effect: weights[t.effect] for t in alike if t.effect not in apart}
+
+
+def _only_imitates(trial: Trial, best: Trial, before: Fit) -> bool:
+    """Whether a trial has the torque of the best one, and values that cannot be right."""
+    rows = before.rows
+    torque = best.fit.prediction[rows]
+    apart = rms(trial.fit.prediction[rows] - torque)
+    return (
+        apart <= SAME * rms(torque - before.prediction[rows])
+        and impossible(Claim(trial.effect, before, trial.fit)) is not None
+    )
 
 
 def finding_of(

@@ -11,6 +11,7 @@ from stribeck.base.errors import StribeckError
 from stribeck.base.pool import on_each
 from stribeck.diagnosis.extend import holds
 from stribeck.diagnosis.flexible_shape import flexible_columns
+from stribeck.diagnosis.least_fall import reduced
 from stribeck.diagnosis.testable import Untestable
 from stribeck.diagnosis.visibility.added_effect import AddedEffect
 from stribeck.diagnosis.visibility.groups import indistinguishable
@@ -59,7 +60,7 @@ def visibility(
     if columns.shape[1]:
         # What a flexible form of the effects in the model explains is not claimed for another.
         flexible = ModelSpace(problem, columns)
-        models.append((flexible, replace(need, least_fall=need.least_fall / 2.0)))
+        models.append((flexible, replace(need, least_fall=reduced(need.least_fall))))
     unit, largest = fit.model.torque_unit, _friction(fit)
 
     def look(effect: str) -> VisibleEffect | None:

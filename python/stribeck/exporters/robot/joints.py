@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import SpecError, joint_called
 from stribeck.base.version import __version__
 from stribeck.exporters.precision import Precision
 from stribeck.exporters.program import Program
@@ -50,7 +50,9 @@ class Joints:
             raise SpecError(f"{robot.name}: the inertial parameters of its links are not known")
         missing = [name for name in robot.names if name not in friction]
         if missing:
-            raise SpecError(f"{robot.name}: the friction of joint {missing[0]} is not known")
+            raise SpecError(
+                f"{robot.name}: the friction of {joint_called(missing[0])} is not known"
+            )
         models = tuple(friction[name].friction.without_effect("delay") for name in robot.names)
         for model in models:
             model.known_values()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.base.errors import SpecError
+from stribeck.base.errors import SpecError, joint_called
 from stribeck.exporters.robot.joints import OF_MOTION, Joints
 from stribeck.exporters.vectors import cycles, side, waveform
 from stribeck.models.channels import ChannelArguments
@@ -105,5 +105,5 @@ def _friction(joints: Joints, joint: int, dt: Array, channels: dict[str, Array])
         )
     except ValueError as error:
         name = joints.robot.names[joint]
-        raise SpecError(f"joint {name}, {model.spec}: no test vectors: {error}") from None
+        raise SpecError(f"{joint_called(name)}, {model.spec}: no test vectors: {error}") from None
     return np.asarray(torque)

@@ -12,7 +12,7 @@ from dataclasses import replace
 from stribeck.base.arguments import door
 from stribeck.base.errors import SpecError, option
 from stribeck.base.pool import serial_linear_algebra
-from stribeck.diagnosis.diagnose import LEAST_FALL
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.testable import untestable
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE
 from stribeck.diagnosis.visibility.power import Demand, Noise

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import polars as pl
 
-from stribeck.base.errors import listed
+from stribeck.base.errors import joint_called, listed
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.view import View
 from stribeck.recording.names import same_of_joint
@@ -39,7 +39,9 @@ def check_others(view: View) -> Check | None:
 
 
 def _said(moving: list[str]) -> Check:
-    which = f"joint {moving[0]} moves" if len(moving) == 1 else f"joints {listed(moving)} move"
+    which = (
+        f"{joint_called(moving[0])} moves" if len(moving) == 1 else f"joints {listed(moving)} move"
+    )
     return Check(
         "others",
         True,

@@ -18,6 +18,9 @@ __all__ = ["check_torque"]
 
 #: The motion explains the torque if the regression leaves at most this share of its variance.
 _UNEXPLAINED = 0.5
+#: Friction below this share of the torque (RMS) does not tell its sign: a small error of gravity or
+#: of the time between the channels is as large.
+_NEGLIGIBLE = 0.02
 #: Another column is the joint's if it leaves at most this share of what the given one leaves.
 _BETTER = 0.2
 
@@ -73,6 +76,13 @@ def check_torque(view: View) -> Check | None:
 
 def _negative(view: View, found: Dissipation, said: str) -> Check:
     """The torque gives energy to the friction: which channel is reversed, if that can be told."""
+    if _is_negligible(view, found):
+        return Check(
+            "torque",
+            True,
+            f"cannot check the torque against the motion: {said}, less than "
+            f"{100.0 * _NEGLIGIBLE:g} % of the torque",
+        )
     explains = 1.0 - found.explained < _UNEXPLAINED
     witness = found.load or found.inertia
     if witness is None or witness.sign == 0 or not explains:
@@ -102,6 +112,15 @@ def _negative(view: View, found: Dissipation, said: str) -> Check:
         False,
         f"{said}, but the load torque has the sign of the torque: the motion is reversed",
         f"give {turned}",
+    )
+
+
+def _is_negligible(view: View, found: Dissipation) -> bool:
+    """Whether friction is hardly any of the torque."""
+    torque = view.recording.torque[view.recording.moving]
+    friction = found.friction
+    return friction is not None and -friction.interval[0] < _NEGLIGIBLE * float(
+        np.sqrt(np.mean(torque**2))
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
+from stribeck.base.errors import joint_called
 from stribeck.diagnosis.compare import Comparison
 from stribeck.motion.design.result import Plan
 from stribeck.passivity.certificate import Certificate
@@ -74,7 +75,7 @@ class Joint:
         """The files, and the joint where one is named."""
         names = [Path(file).name for file in self.files]
         name = text_of(names, names)
-        return f"{name}, joint {self.options.joint}" if self.options.joint else name
+        return f"{name}, {joint_called(self.options.joint)}" if self.options.joint else name
 
 
 @dataclass

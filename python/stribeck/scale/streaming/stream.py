@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError
-from stribeck.diagnosis.diagnose import LEAST_FALL
 from stribeck.diagnosis.diagnose import diagnose as diagnose_in_memory
+from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.loop.improve import improve as improve_in_memory
 from stribeck.fitting.fit import fit as fit_in_memory
 from stribeck.fitting.result import Fit
