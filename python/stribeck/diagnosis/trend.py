@@ -8,7 +8,7 @@ Magnets that warm, or an amplifier, change the motor torque of every part by the
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -25,6 +25,7 @@ from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.parts import friction_parts
 from stribeck.recording.moves import moves
+from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
 
@@ -36,6 +37,10 @@ SIGNIFICANCE = 0.001
 SAME = 2.0
 #: A part with a smaller share of the torque says nothing about a change of its own.
 LEAST_PART = 0.02
+#: Rank correlation of the size of the moves with time from which the motion changes steadily.
+STEADY = 0.8
+#: Of fewer moves that is chance.
+FEWEST_RANKED = 8
 #: A part that changes steadily by a larger share of its mean has another sign at one end.
 LARGEST = 2.0
 
@@ -66,9 +71,9 @@ class Trend:
         is significant.
     fall
         Relative fall of the RMSE with these changes.
-    cause : {"gain", "load", "friction"}
+    cause : {"gain", "load", "zero", "friction"}
         ``"gain"`` where the load changes, and friction by the same share; ``"load"`` where the load
-        alone changes clearly.
+        alone changes clearly; ``"zero"`` where a drifting zero of the torque explains that as well.
     """
 
     seconds: float
@@ -91,7 +96,8 @@ def trend(fitted: Fit) -> Trend | None:
     """The trend that `fitted` leaves; None where there is none, or a temperature was recorded.
 
     The model is linearised, and each part multiplied by time is added to it. Nothing is said where
-    fewer than five moves carry the change, or a part would change its sign.
+    fewer than five moves carry the change, a part would change its sign, or the motion itself
+    changes steadily, as in a sweep of the frequency.
     """
     r = fitted.recording
     if r.temperature is not None or r.averaged or "drift" in fitted.model.effects:
@@ -105,19 +111,41 @@ def trend(fitted: Fit) -> Trend | None:
     seconds = float(r.elapsed[-1] - r.elapsed[0])
     if DRY not in parts or not seconds > 0.0:
         return None
+    if _motion_changes(r):
+        return None
     share = (r.elapsed[fitted.rows] - r.elapsed[0]) / seconds - 0.5
     # A known load has no parameter of its own; its scale may be wrong throughout.
     known = [parts[LOAD]] if r.load_torque is not None and LOAD in parts else []
     columns = np.column_stack([jacobian, *known, *(part * share for part in parts.values())])
-    return _found(fitted, columns, list(parts), seconds)
+    found = _found(fitted, columns, list(parts), seconds)
+    if found is None or found.cause != "load":
+        return found
+    base = columns[:, : columns.shape[1] - len(parts)]
+    with_zero = np.column_stack([base, np.ones_like(share), share])
+    return replace(found, cause="zero") if _fall(fitted, with_zero) >= found.fall else found
+
+
+def _motion_changes(recording: Recording) -> bool:
+    """Whether the speed or the acceleration of the moves rises or falls steadily with time.
+
+    What depends on either is then indistinguishable from a trend.
+    """
+    move = moves(recording)
+    rows = np.flatnonzero(recording.moving & (move >= 0))
+    channels = [recording.velocity_smooth, recording.acceleration_smooth]
+    count = np.bincount(move[rows])
+    kept = count > 0
+    sizes = [np.bincount(move[rows], c[rows] ** 2)[kept] / count[kept] for c in channels]
+    if kept.sum() < FEWEST_RANKED:
+        return False
+    order = np.arange(kept.sum())
+    return any(abs(scipy.stats.spearmanr(order, size).statistic) > STEADY for size in sizes)
 
 
 def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Trend | None:
     """The trend in the last columns [m, p + k] of a linearised fit."""
     residual = fitted.weighted(fitted.residual[fitted.rows])
-    columns = np.column_stack([fitted.weighted(column) for column in columns.T])
-    size = np.sqrt((columns**2).mean(axis=0))
-    scaled = columns[:, size > 0.0] / size[size > 0.0]
+    scaled, size = _scaled(fitted, columns)
     values = linear.least_norm(scaled, residual, 1e-8)
     left = residual - scaled @ values
     fall = 1.0 - rms(left) / rms(residual) if rms(residual) > 0.0 else 0.0
@@ -140,6 +168,21 @@ def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Tre
         for name, share, error, shown in zip(names, shares, errors, clear, strict=True)
     }
     return Trend(seconds, changes, fall, _cause(changes))
+
+
+def _fall(fitted: Fit, columns: Array) -> float:
+    """Relative fall of the RMSE with columns [m, k] in the place of a linearised fit."""
+    residual = fitted.weighted(fitted.residual[fitted.rows])
+    scaled, _ = _scaled(fitted, columns)
+    left = residual - scaled @ linear.least_norm(scaled, residual, 1e-8)
+    return 1.0 - rms(left) / rms(residual)
+
+
+def _scaled(fitted: Fit, columns: Array) -> tuple[Array, Array]:
+    """Weighted columns [m, k] of RMS one, without those that are zero, and the size of each [k]."""
+    weighted = np.column_stack([fitted.weighted(column) for column in columns.T])
+    size = np.sqrt((weighted**2).mean(axis=0))
+    return weighted[:, size > 0.0] / size[size > 0.0], size
 
 
 def _parts(fitted: Fit) -> dict[str, Array]:

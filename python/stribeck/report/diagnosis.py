@@ -279,6 +279,11 @@ def trend_text(found: Trend | None) -> str:
             f"{said}, and friction not clearly: the payload may have changed. Give the load "
             f"torque, or diagnose each payload alone."
         )
+    if found.cause == "zero":
+        return (
+            f"{said}, which explains it as well; friction changes not clearly. Compare the torque "
+            f"at rest at the same position before and after, without a payload."
+        )
     return (
         f"{said}. No temperature was recorded: this may be temperature, wear or run-in. Record the "
         f"temperature to tell."
@@ -293,7 +298,8 @@ def _changes(found: Trend) -> str:
         for name, change in found.changes.items()
         if change.clear
     ]
-    return f"over the {plain(found.seconds)} s of the recording {listed(shown)}"
+    said = f"over the {plain(found.seconds)} s of the recording {listed(shown)}"
+    return f"{said}, or the zero of the torque drifts" if found.cause == "zero" else said
 
 
 def explainable_text(explainable: Explainable | None, spec: str, unit: str) -> str:

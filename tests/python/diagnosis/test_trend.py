@@ -57,6 +57,35 @@ def test_another_payload_is_neither_gain_nor_friction(tmp_path: Path) -> None:
     assert "the payload may have changed" in trend_text(found)
 
 
+def test_a_zero_that_drifts_is_not_called_a_payload(tmp_path: Path) -> None:
+    """Gravity of one sign all the time changes nearly as the zero does."""
+    frame = joint(0.5 * LATER, rows=ROWS, rate=RATE)
+    gravity = 4.0 * np.cos(0.5 * frame["position"].to_numpy())
+    torque = frame["torque"] - frame["load_torque"] + gravity + 0.3 * frame["acceleration"]
+    made = frame.with_columns(torque=torque).drop("temperature", "load_torque")
+    found = trend(sb.fit("coulomb", record(tmp_path, made), starts=1))
+    assert found is not None and found.cause == "zero"
+    assert "the zero of the torque drifts" in trend_text(found)
+
+
+def test_nothing_is_said_of_time_where_the_motion_changes_with_it(tmp_path: Path) -> None:
+    """In a sweep, what grows with the frequency grows with time."""
+    t = np.arange(ROWS) / RATE
+    frequency = 0.02 + 0.18 * t / t[-1]
+    phase = 2.0 * np.pi * np.cumsum(frequency) / RATE
+    rate = 2.0 * np.pi * frequency
+    v, a = 0.5 * rate * np.cos(phase), -0.5 * rate**2 * np.sin(phase)
+    frame = joint(rows=ROWS, rate=RATE).drop("temperature", "load_torque")
+    friction = COULOMB * (1.0 - 0.3 * frequency / 0.2) * np.sign(v) + COEFFICIENT * v
+    noise = 0.01 * np.random.default_rng(1).standard_normal(ROWS)
+    swept = frame.with_columns(
+        position=0.5 * np.sin(phase), velocity=v, acceleration=a, torque=friction + 0.3 * a + noise
+    )
+    fitted = sb.fit("coulomb", record(tmp_path, swept), starts=1)
+    assert fitted.rmse > 0.1
+    assert trend(fitted) is None
+
+
 def test_drift_without_a_thermometer_is_tied_with_temperature(tmp_path: Path) -> None:
     recording = drifting(tmp_path, -0.1 * COULOMB * np.sign(V) * LATER)
     said = sb.diagnose(sb.fit("coulomb", recording, starts=1))
