@@ -26,7 +26,7 @@ def _where(before: Identified, after: Identified) -> str:
         f"the torque {_way(tau)} the motion by {number(1e3 * abs(tau))} ms "
         f"({number(abs(tau) * after.recording.rate_hz)} samples)"
     )
-    velocity = after.recording.velocity[after.rows]
+    velocity = after.recording.velocity[after.recording.moving]
     if velocity.min() < 0.0 < velocity.max():
         said = f"{said}, most visible at reversals"
     late = recorded_lag(after.recording)

@@ -11,7 +11,7 @@ from stribeck.diagnosis.trials.evidence import evidence
 from stribeck.diagnosis.trials.ranking import OUTSIDE_THE_BAND, ranked
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import TIE, Trial, tie_statistic
-from synthetic import joint, record
+from synthetic import joint, motion, record
 
 
 @pytest.mark.parametrize("how", ["demoted", "refused", "rivals"])
@@ -33,6 +33,25 @@ def test_an_effect_that_predicts_as_well_lowers_the_confidence(tmp_path: Path, h
     assert confidence(Sifted((trial,))) == (pytest.approx(1.0, abs=1e-3), ())
     value, names = confidence(Sifted((trial,), **{how: (other,)}))
     assert 0.45 < value < 0.9 and names == ("direction",)
+
+
+def test_an_impossible_effect_with_the_same_torque_is_no_alternative(tmp_path: Path) -> None:
+    """Friction of 100 N m more in one direction would be negative in the other."""
+    before = sb.fit("coulomb", record(tmp_path, joint(100.0)), starts=1)
+    (first,) = sb.diagnose(before).findings
+    assert first.effect == "offset" and first.confidence > 0.99
+    assert first.indistinguishable_from == ()
+
+
+def test_what_a_torque_contains_comes_first_where_it_explains_nearly_as_much(
+    tmp_path: Path,
+) -> None:
+    """A spring has a mean, which is an offset: most of its torque here."""
+    position = motion()[1]
+    recording = record(tmp_path, joint(20.0 + 0.3 * position**3))
+    assert sb.diagnose(sb.fit("coulomb", recording, starts=1)).findings[0].effect == "offset"
+    found = sb.improve("coulomb", recording)
+    assert [step.finding.effect for step in found.steps] == ["offset", "spring"]
 
 
 def test_a_much_worse_rival_is_not_named(tmp_path: Path) -> None:

@@ -100,14 +100,14 @@ def test_hats_hold_every_piecewise_linear_curve() -> None:
     assert hats(np.zeros(50), 5) == []
 
 
-def turning(slow: float) -> pl.DataFrame:
-    """A joint that turns forward only, with a slow wave of torque along its way."""
+def turning(slow: float, waves: float = 1.7, speed: float = 1.0) -> pl.DataFrame:
+    """A joint that turns forward only, with a wave of torque along its way."""
     rng = np.random.default_rng(3)
     t = np.arange(6000) / 100.0
-    v = 1.0 + 0.5 * np.sin(2 * np.pi * 0.2 * t)
+    v = speed * (1.0 + 0.5 * np.sin(2 * np.pi * 0.2 * t))
     q = np.cumsum(v) / 100.0
     noise = 0.03 * rng.standard_normal(t.size)
-    torque = 3.0 + 1.2 * v + slow * np.sin(1.7 * q) + noise
+    torque = 3.0 + 1.2 * v + slow * np.sin(waves * q) + noise
     zero = np.zeros(t.size)
     return pl.DataFrame(
         {"time": t, "position": q, "velocity": v, "torque": torque, "load_torque": zero}
@@ -121,6 +121,15 @@ def test_where_no_position_is_passed_twice_a_wave_is_not_called_noise(tmp_path: 
     found = sb.improve("coulomb", record(tmp_path, turning(0.5), "again"))
     assert found.stopped == "nothing_passes"
     assert found.unexplained.where is not None and "lasts longer" in found.unexplained.where
+
+
+def test_a_wave_that_repeats_with_each_turn_is_not_called_noise(tmp_path: Path) -> None:
+    """The joint turns forward only, so no position is passed twice, but the angle is."""
+    fitted = sb.fit("coulomb", record(tmp_path, turning(0.1, 3.0, speed=15.0)))
+    assert fitted.rmse == pytest.approx(np.hypot(0.03, 0.1 / np.sqrt(2.0)), rel=0.05)
+    assert not noise_floor(fitted).is_reached_by(fitted.rmse)
+    found = sb.improve("coulomb", fitted.recording)
+    assert found.unexplained.is_structure
 
 
 def test_white_noise_needs_no_repeats(tmp_path: Path) -> None:

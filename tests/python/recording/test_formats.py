@@ -104,6 +104,9 @@ def test_csv_dialects(write, frame):
     np.testing.assert_array_equal(read(write(bom, "b.csv")).torque, expected)
     blanks = small.write_csv(separator=" ")
     np.testing.assert_array_equal(read(write(blanks, "w.txt")).torque, expected)
+    ended = small.write_csv(separator=" ", include_header=False).replace("\n", " \n")
+    names = ",".join(small.columns)
+    np.testing.assert_array_equal(read(write(ended, "e.txt"), columns=names).torque, expected)
 
 
 @pytest.mark.parametrize("name", ["t.parquet", "t.arrow", "t.npz", "t.mat"])

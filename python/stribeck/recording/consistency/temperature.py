@@ -32,6 +32,13 @@ def check_temperature(view: View) -> Check | None:
     if values is None:
         return None
     low, high = float(values.min()), float(values.max())
+    if low == high and _plausible(low, high):
+        return Check(
+            "temperature",
+            True,
+            f"cannot check the temperature ('{view.column('temperature')}'): it is {low:.3g} degC "
+            f"in every sample, so nothing can depend on it",
+        )
     if _plausible(low, high):
         return Check("temperature", True, f"{low:.3g} to {high:.3g} degC is plausible")
     missing = _mark(values)

@@ -183,12 +183,12 @@ def read_layout(file: Entered, data: bytes, layout: Layout, *, short: bool = Fal
     seen = look(file, data, start, layout.line, separator.encode(), width - 1)
     file.check_table(seen.count, width)
     notes: tuple[str, ...] = ()
-    body = memoryview(data)[start:]
+    body: bytes | memoryview = memoryview(data)[start:] if start else data
     if seen.uneven is not None and not seen.quotes and not short:
         body, separator, notes = _evened(file, data, layout, seen)
     elif seen.blank:
-        body = memoryview(_without_blank(bytes(body)))
-    table = _parsed(bytes(body) if start else data, layout, separator)
+        body = _without_blank(bytes(body))
+    table = _parsed(bytes(body), layout, separator)
     if table is None or table.width != width:
         raise _uneven(file, data, layout)
     return Read(table, notes=notes, first_line=0 if seen.blank else layout.line)

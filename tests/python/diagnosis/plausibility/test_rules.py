@@ -77,6 +77,16 @@ def test_a_torque_beyond_all_that_was_measured(offset: Claim) -> None:
     assert too_large(with_values(offset, offset=0.99 * span)) is None
 
 
+def test_a_constant_load_may_exceed_all_changes_of_the_torque(tmp_path: Path) -> None:
+    """As on a vertical axis: the torque never comes near zero."""
+    before = sb.fit("coulomb", record(tmp_path, joint(100.0)), starts=1)
+    claim = Claim("offset", before, sb.add(before, "offset", starts=1), 0.01)
+    r = before.recording
+    assert np.ptp((r.torque - r.known_torque)[claim.rows]) < 20.0
+    assert too_large(claim) is None
+    assert too_large(with_values(claim, offset=120.0)) is not None
+
+
 def test_terms_that_cancel(tmp_path: Path) -> None:
     """A difference between the directions of 40 N m, and an offset that takes it back."""
     recording = record(tmp_path, joint(OFFSET))
@@ -262,11 +272,11 @@ def test_a_gain_and_an_offset_that_do_not_change_are_no_warm_up(tmp_path: Path) 
 
 
 def test_a_shape_that_is_needed_at_its_bound(tmp_path: Path) -> None:
-    """Friction with the eighth power of the load; one with its size is not at a bound."""
+    """Friction with the twelfth power of the load; one with its size is not at a bound."""
     frame = joint()
     load, v = frame["load_torque"].to_numpy(), frame["velocity"].to_numpy()
     share = np.abs(load) / np.abs(load).max()
-    steep = made(tmp_path, 4.0 * share**8 * np.sign(v), "load", "steep")
+    steep = made(tmp_path, 4.0 * share**12 * np.sign(v), "load", "steep")
     reason = shape_at_bound(steep)
     assert reason is not None and reason.startswith("load_exponent is at its bound 2.5")
     assert shape_at_bound(made(tmp_path, 2.0 * share * np.sign(v), "load", "plain")) is None

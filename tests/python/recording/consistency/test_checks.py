@@ -137,6 +137,23 @@ def test_a_joint_that_is_pushed_is_no_error(write):
     assert check.ok and check.said.startswith("cannot check")
 
 
+def test_friction_that_is_hardly_any_of_the_torque_does_not_show_its_sign(write):
+    """A small error of gravity is as large: the torque is not called reversed."""
+    frame = joint().drop("load_torque")
+    q, v, a = (frame[name].to_numpy() for name in ("position", "velocity", "acceleration"))
+    torque = 3.0 * np.sin(q) - 0.01 * np.sign(v) - 0.002 * a
+    check = _check(read(write(frame.with_columns(torque=pl.Series(torque)))), "torque")
+    assert check.ok and "less than 2 % of the torque" in check.said
+    torque = 3.0 * np.sin(q) - 0.3 * np.sign(v) - 0.2 * a
+    assert not _check(read(write(frame.with_columns(torque=pl.Series(torque)))), "torque").ok
+
+
+def test_a_temperature_that_never_changes_is_told(write):
+    constant = read(write(joint().with_columns(temperature=pl.lit(0.0))))
+    check = _check(constant, "temperature")
+    assert check.ok and "is 0 degC in every sample" in check.said
+
+
 def test_fits_refuse_a_contradiction_and_trust_goes_on(write):
     path = write(joint().with_columns(pl.col("velocity") * 9.5493), "x.parquet")
     recording = read(path)
