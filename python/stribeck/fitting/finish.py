@@ -45,7 +45,8 @@ def finish(
         problem, by = replace(problem, loss_weight=under.loss_weight), under.refit
     found = Prediction.of(problem, values, lower, upper, effort, by)
     if under is None:
-        parameters = identified(problem, values, lower, upper, uncertainty)
+        search = solution.found.search
+        parameters = identified(problem, values, lower, upper, uncertainty, search)
     else:
         parameters = under.identified(values, uncertainty.errors)
     return Fit(

@@ -50,13 +50,45 @@ def across_samples(
         return found
     period = 1.0 / problem.recording.rate_hz
     evaluations = found.evaluations
+    others: list[Search] = []
     for _ in range(MOST_SHIFTS):
         at = np.tile(found.values, (len(SHIFTS), 1))
         at[:, delay] += period * np.array(SHIFTS)[:, None]
         tried = steps(np.clip(at, lower, upper))
         evaluations += sum(search.evaluations for search in tried)
-        best = min(tried, key=lambda search: search.square)
-        if not best.square < found.square:
+        best = min([found, *tried], key=lambda search: search.square)
+        others += [search for search in (found, *tried) if search is not best]
+        if best is found:
             break
         found = best
-    return replace(found, evaluations=evaluations)
+    return replace(found, evaluations=evaluations, others=tuple(others))
+
+
+def error_across_minima(
+    delay: int, found: Search, values: Array, stderr: float, rise: float
+) -> float:
+    """The standard error of a delay whose error has several minima.
+
+    Parameters
+    ----------
+    delay
+        Index of the parameter.
+    found
+        The search that found `values` [p], with the ends of those from other delays.
+    stderr
+        That at the minimum, s.
+    rise
+        By how much the sum of squares rises where a parameter is one standard error away.
+    """
+    if not rise > 0.0:
+        return stderr
+    return max(
+        [
+            stderr,
+            *(
+                abs(float(other.values[delay] - values[delay]))
+                / float(np.sqrt(max((other.square - found.square) / rise, 1.0)))
+                for other in found.others
+            ),
+        ]
+    )

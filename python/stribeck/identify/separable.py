@@ -66,6 +66,8 @@ class Search:
         Number of evaluations of the model.
     blind
         Indices of the nonlinear parameters that have no effect at `values`.
+    others
+        Ends of searches from other delays, whose sums of squares are larger.
     """
 
     values: Array
@@ -74,10 +76,12 @@ class Search:
     outcome: str
     evaluations: int
     blind: Sequence[int] = ()
+    others: tuple[Search, ...] = ()
 
     def continuing(self, before: Search) -> Search:
-        """This search with the evaluations of the one `before` it."""
-        return replace(self, evaluations=before.evaluations + self.evaluations)
+        """This search with the evaluations of the one `before` it, and the other ends."""
+        evaluations = before.evaluations + self.evaluations
+        return replace(self, evaluations=evaluations, others=before.others)
 
 
 def minimise(

@@ -12,6 +12,7 @@ from stribeck.base.checks import check_choice, check_count
 from stribeck.base.errors import SpecError, option
 from stribeck.identify.bootstrap import Resamples, resampled
 from stribeck.identify.covariance import batches, correlation_length, variances
+from stribeck.identify.delays import error_across_minima, free_delay
 from stribeck.identify.estimates import (
     APART,
     ERRORS,
@@ -21,7 +22,7 @@ from stribeck.identify.estimates import (
 )
 from stribeck.identify.problem import Problem
 from stribeck.identify.profile import Profile
-from stribeck.identify.separable import minimise
+from stribeck.identify.separable import Search, minimise
 
 Array = NDArray[np.float64]
 
@@ -67,9 +68,20 @@ class Uncertainty:
 
 
 def identified(
-    problem: Problem, values: Array, lower: Array, upper: Array, by: Uncertainty
+    problem: Problem,
+    values: Array,
+    lower: Array,
+    upper: Array,
+    by: Uncertainty,
+    search: Search | None = None,
 ) -> Identified:
-    """The parameters at the solution `values` [p] between bounds."""
+    """The parameters at the solution `values` [p] between bounds.
+
+    Parameters
+    ----------
+    search
+        The search that found them: it may know other minima of a delay.
+    """
     if by.errors == "independent":
         residual, jacobian = map(problem.weighted, problem.linearise(values))
         return estimates_by_rows(problem.model, values, lower, upper, jacobian, residual, None)
@@ -84,6 +96,8 @@ def identified(
             problem, values, lower, upper, length=length, resamples=by.resamples, seed=by.seed
         )
         return _with_refits(found, refits)
+    if search is not None and search.others:
+        return _across_minima(problem, values, lower, upper, rows, found, search)
     return found
 
 
@@ -124,6 +138,34 @@ def _with_profiles(
                 f"starts"
             )
     return replace(found, estimates=made, notes=tuple(notes))
+
+
+def _across_minima(
+    problem: Problem,
+    values: Array,
+    lower: Array,
+    upper: Array,
+    rows: Rows,
+    found: Identified,
+    search: Search,
+) -> Identified:
+    """The parameters with the error of a delay across its minima that fit as well."""
+    k = int(np.flatnonzero(free_delay(problem, lower, upper))[0])
+    known = list(found.estimates.values())
+    delay = known[k]
+    if delay.stderr is None or delay.ci95 is None or not delay.stderr > 0.0:
+        return found
+    jacobian, residual, batch = rows
+    free = np.array([not (e.held or e.at_bound) for e in known])
+    _, rise = variances(jacobian, residual, batch, free, k, APART)
+    wider = error_across_minima(k, search, values, delay.stderr, rise) / delay.stderr
+    if not wider > 1.0:
+        return found
+    low, high = (delay.value + wider * (end - delay.value) for end in delay.ci95)
+    widened = replace(delay, stderr=wider * delay.stderr, ci95=(low, high))
+    scale = np.array([wider if name == delay.name else 1.0 for name in found.covariance.names])
+    covariance = replace(found.covariance, values=found.covariance.values * scale[:, None] * scale)
+    return replace(found, estimates={**found.estimates, delay.name: widened}, covariance=covariance)
 
 
 def _with_refits(found: Identified, refits: Resamples) -> Identified:

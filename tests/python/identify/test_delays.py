@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy
 import stribeck as sb
+from stribeck.identify.delays import error_across_minima
+from stribeck.identify.separable import Search
 from stribeck.motion.generate.hidden import generate
 
 RATE, TIME_CONSTANT = 250.0, 0.005
@@ -49,3 +53,26 @@ def test_steady_points_show_no_delay() -> None:
         average="row",
     )
     assert sb.fit("coulomb+delay", points, starts=2).rmse < 1e-9
+
+
+def ended(delay: float, square: float) -> Search:
+    return Search(np.array([1.0, delay]), square, True, "", 1)
+
+
+@pytest.mark.parametrize(
+    ("others", "error"),
+    [
+        ((), 0.1),
+        # The same minimum.
+        ((ended(0.51, 100.001),), 0.1),
+        # Another one that fits as well, and one that is two standard errors worse.
+        ((ended(1.5, 100.5),), 1.0),
+        ((ended(1.5, 104.0),), 0.5),
+        ((ended(1.5, 100.5), ended(4.5, 101.0)), 4.0),
+    ],
+)
+def test_the_error_reaches_other_minima_that_fit_as_well(
+    others: tuple[Search, ...], error: float
+) -> None:
+    found = replace(ended(0.5, 100.0), others=others)
+    assert error_across_minima(1, found, found.values, 0.1, 1.0) == pytest.approx(error)
