@@ -27,6 +27,7 @@ from stribeck.diagnosis.trials.outshone import without_outshone, without_unresol
 from stribeck.diagnosis.trials.pairs import best_pair
 from stribeck.diagnosis.trials.proxies import without_proxies
 from stribeck.diagnosis.trials.ranking import finding_of, ranked
+from stribeck.diagnosis.trials.remainder import limited
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.sifting import Sifted
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial, try_effect
@@ -91,7 +92,7 @@ def diagnose(
         stretches; the errors are those of all samples.
     brief : bool
         Without the smallest visible effects; where there are findings, without the explainable
-        share as well.
+        share as well, and without what remains, which may limit their confidence.
     progress, known : callable
         Called with a sentence after each candidate, and with what `brief` would return as soon as
         there are findings.
@@ -122,7 +123,9 @@ def diagnose(
         known(shown)
     rest = _with_remainder(made, evidence)
     whole = rest if brief else with_visibility(rest)
-    said = replace(whole, fit=shown.fit, findings=shown.findings, demoted=shown.demoted)
+    parts = {finding.effect: finding.part for finding in rest.findings}
+    findings = tuple(replace(found, part=parts[found.effect]) for found in shown.findings)
+    said = replace(whole, fit=shown.fit, findings=findings, demoted=shown.demoted)
     if is_whole:
         return said
     return with_remainder_on_all_samples(said, said.findings[0].fit if said.findings else fitted)
@@ -192,6 +195,7 @@ def _with_remainder(found: Diagnosis, evidence: Tested) -> Diagnosis:
     return replace(
         found,
         verdict=verdict,
+        findings=limited(found.findings, evidence.passing, structure),
         unexplained=structure,
         explainable=explained,
         in_one_block=possible(evidence.in_one_block),

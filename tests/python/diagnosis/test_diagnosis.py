@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -98,7 +99,10 @@ def test_findings_are_known_before_the_rest(loaded: sb.Recording, sample_rows: i
     fitted = sb.fit("coulomb", loaded, starts=2)
     found = sb.diagnose(fitted, sample_rows=sample_rows, known=told.append)
     (first,) = told
-    assert first.findings is found.findings and first.findings
+    assert first.findings
+    # What remains may limit their confidence, and is asked last.
+    again = tuple(replace(finding, part=1.0) for finding in found.findings)
+    assert again == first.findings
     assert first.explainable is None and found.explainable is not None
     brief = sb.diagnose(fitted, sample_rows=sample_rows, brief=True)
     assert brief.to_dict() == first.to_dict()

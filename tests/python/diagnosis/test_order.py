@@ -105,6 +105,7 @@ def world(monkeypatch: pytest.MonkeyPatch) -> Iterator[World]:
         "is_friction": lambda effect: effect in made.friction,
         "where": lambda *rest: "here",
         "structure_share": lambda fit, floor: made.structure,
+        "only_imitates": lambda trial, best, before: False,
         "is_undecided": lambda effects, fits, before, left: (
             left > 0.0 and effects[1] in made.undecided
         ),

@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.loop.remainder import (
+from stribeck.diagnosis.residual.unexplained import Unexplained
+from stribeck.diagnosis.trials.known_size import has_known_size
+from stribeck.diagnosis.trials.remainder import (
     BESIDE_STRUCTURE,
     LEAST_PART,
     REASON,
@@ -16,8 +18,6 @@ from stribeck.diagnosis.loop.remainder import (
     part_explained,
     unknown_structure,
 )
-from stribeck.diagnosis.residual.unexplained import Unexplained
-from stribeck.diagnosis.trials.known_size import has_known_size
 from synthetic import Array, joint, joint_with_stribeck_curve, motion, record
 
 V = motion()[2]
@@ -133,3 +133,21 @@ def test_the_size_of_an_effect_is_of_the_parameters_that_the_model_has(tmp_path:
     fitted = sb.fit("coulomb+temperature_dry", record(tmp_path, joint()), starts=1)
     assert "temperature_dry_height" not in fitted.estimates
     assert not has_known_size("temperature_dry", fitted)  # no temperature acts on this joint
+
+
+def test_one_step_says_less_beside_an_unknown_torque_than_beside_another_effect(
+    tmp_path: Path,
+) -> None:
+    """A torque of the time alone, and a Stribeck curve that the next step finds."""
+    t, _, v, _ = motion()
+
+    def first(extra: Array, name: str) -> sb.Finding:
+        recording = record(tmp_path, joint(0.6 + extra), name)
+        finding = sb.diagnose(sb.fit("coulomb", recording, starts=1)).findings[0]
+        assert finding.effect == "offset"
+        return finding
+
+    unknown = first(0.9 * np.sin(2.0 * np.pi * 0.31 * t), "unknown")
+    other = first(0.9 * np.exp(-np.abs(v) / 0.15) * np.sign(v), "other")
+    assert unknown.part < 0.75 and unknown.confidence == min(unknown.part, unknown.weight)
+    assert other.part > 0.9

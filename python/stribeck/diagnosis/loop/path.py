@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
-from stribeck.diagnosis.loop.remainder import part_explained, unknown_structure
 from stribeck.diagnosis.loop.superfluous import Needed, brought_by, model_without, without_effects
 from stribeck.diagnosis.plausibility.rules import DEMOTED
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
+from stribeck.diagnosis.trials.remainder import part_explained, unknown_structure
 from stribeck.effect.describe import is_drive_train, where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit

@@ -11,11 +11,11 @@ from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.loop.form import of_other_form
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, trials_of
-from stribeck.diagnosis.loop.remainder import REASON, imitations
 from stribeck.diagnosis.loop.superfluous import needed
 from stribeck.diagnosis.loop.ties import settled
 from stribeck.diagnosis.loop.ways import best_of, other_beginnings, predicts_better
 from stribeck.diagnosis.result import Diagnosis, Finding
+from stribeck.diagnosis.trials.remainder import REASON, imitations
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
 

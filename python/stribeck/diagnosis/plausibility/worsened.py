@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.claim import Array, Claim
 from stribeck.effect.base import number
 from stribeck.effect.describe import acts_in_shocks
+from stribeck.identify.covariance import batches, correlation_length
 from stribeck.identify.loss import robust_scale
 
 #: Fewer samples show no mean.
@@ -21,8 +22,9 @@ FEWEST = 20
 def worsened(claim: Claim) -> str | None:
     """By how much the mean absolute error of the samples that an effect changes rises.
 
-    None where it falls, where fewer than `FEWEST` are changed by more than the noise, and of an
-    effect that acts in shocks, in which a delay of one sample counts.
+    None where it falls, or rises by no more than its standard error, where fewer than `FEWEST` are
+    changed by more than the noise, and of an effect that acts in shocks, in which a delay of one
+    sample counts.
     """
     if acts_in_shocks(claim.effect):
         return None
@@ -33,10 +35,18 @@ def worsened(claim: Claim) -> str | None:
     changed = change > robust_scale(along)
     if np.count_nonzero(changed) < FEWEST:
         return None
-    rise = float(along[changed].sum() / before[changed].sum()) - 1.0
-    if rise <= 0.0:
+    more = (along - before)[changed]
+    if float(more.sum()) <= _error_of_sum(more):
         return None
+    rise = float(along[changed].sum() / before[changed].sum()) - 1.0
     return (
         f"the mean absolute error of the samples that it changes by more than the noise rises by "
         f"{number(100.0 * rise, 2)} %: a few with a very large error decide"
     )
+
+
+def _error_of_sum(values: Array) -> float:
+    """Standard error of the sum of values [m] that are correlated in time."""
+    batch = batches(values.size, correlation_length(values), fewest=FEWEST)
+    sums = np.bincount(batch, values)
+    return float(np.sqrt(sums.size) * sums.std(ddof=1)) if sums.size > 2 else np.inf

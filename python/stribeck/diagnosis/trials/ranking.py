@@ -17,6 +17,7 @@ from stribeck.diagnosis.trials.beside_structure import ALIKE, is_undecided, stru
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.proxies import alike
+from stribeck.diagnosis.trials.same_torque import only_imitates
 from stribeck.diagnosis.trials.sifting import Doubted, Sifted
 from stribeck.diagnosis.trials.trial import (
     SIMPLEST,
@@ -31,13 +32,10 @@ from stribeck.diagnosis.trials.trial import (
 )
 from stribeck.effect.describe import is_friction, where
 from stribeck.fitting.result import Fit
-from stribeck.identify.figures import rms
 from stribeck.models.catalog import simpler_effect
 
 #: A tie with a smaller weight changes no confidence that is shown.
 NEGLIGIBLE = 0.005
-#: Two effects whose torques differ by less than this share have the same torque.
-SAME = 0.02
 #: An effect that explains less than this share of the squared error above the noise floor, and of
 #: that in the band of the motion, is not reported, however significant: much larger causes remain.
 MATERIAL = 0.05
@@ -223,7 +221,7 @@ def _doubtful_ties(
     An effect with impossible values that has the very torque of the best is no alternative.
     """
     rivals = () if is_friction(best.effect) else sift.rivals
-    refused = [row.trial for row in sift.refused if not _only_imitates(row.trial, best, before)]
+    refused = [row.trial for row in sift.refused if not only_imitates(row.trial, best, before)]
     trials = [*(row.trial for row in sift.demoted), *refused, *rivals]
     left = structure_share(best.fit, floor)
 
@@ -238,17 +236,6 @@ def _doubtful_ties(
     adds = on_each(lambda trial: adds_to(best, trial, tried, least, seed), alike)
     apart = [trial.effect for trial, more in zip(alike, adds, strict=True) if more]
     return {t.effect: weights[t.effect] for t in alike if t.effect not in apart}
-
-
-def _only_imitates(trial: Trial, best: Trial, before: Fit) -> bool:
-    """Whether a trial has the torque of the best one, and values that cannot be right."""
-    rows = before.rows
-    torque = best.fit.prediction[rows]
-    apart = rms(trial.fit.prediction[rows] - torque)
-    return (
-        apart <= SAME * rms(torque - before.prediction[rows])
-        and impossible(Claim(trial.effect, before, trial.fit)) is not None
-    )
 
 
 def finding_of(

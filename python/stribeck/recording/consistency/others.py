@@ -8,7 +8,6 @@ import polars as pl
 from stribeck.base.errors import joint_called, listed
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.view import View
-from stribeck.recording.names import same_of_joint
 
 __all__ = ["check_others"]
 
@@ -30,7 +29,7 @@ def check_others(view: View) -> Check | None:
     table = view.prepared.table
     for channel in ("velocity", "position"):
         for column in view.columns_of(channel):
-            others = same_of_joint(table.columns, column)
+            others = view.of_other_joints(column)
             if others:
                 own = _size(table, column)
                 moving = [j for j, name in others.items() if _size(table, name) > _SHARE * own]

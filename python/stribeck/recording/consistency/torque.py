@@ -160,7 +160,7 @@ def _columns(view: View) -> Iterator[tuple[str, Floats]]:
     prepared = view.prepared
     used = view.columns_of("torque")
     kinds = {parse_name(column).channel for column in used} - {None}
-    alike = [n for column in used for n in same_of_joint(prepared.table.columns, column).values()]
+    alike = [name for column in used for name in view.of_other_joints(column).values()]
     named = [n for n in prepared.table.columns if parse_name(n).channel in kinds and n not in used]
     names = dict.fromkeys([*alike, *named])
     for name in names:

@@ -13,6 +13,7 @@ from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.consistency.dissipation import Dissipation, dissipation
 from stribeck.recording.consistency.follow import Follows, Track, follows
 from stribeck.recording.consistency.readings import Source
+from stribeck.recording.names import same_of_joint
 from stribeck.recording.prepared import Prepared, columns_of
 from stribeck.recording.recording import Recording
 
@@ -79,6 +80,16 @@ class View:
     def columns_of(self, channel: str) -> tuple[str, ...]:
         """The columns of the file that a channel is read or computed from."""
         return columns_of(self.prepared, channel)
+
+    def of_other_joints(self, column: str) -> dict[str, str]:
+        """Joint -> column of the same name but for the number of the joint.
+
+        None where one of them is a channel of this joint: then the numbers are those of the columns
+        of a matrix.
+        """
+        found = same_of_joint(self.prepared.table.columns, column)
+        own = {name for channel in self.prepared.choices for name in self.columns_of(channel)}
+        return {} if own & set(found.values()) else found
 
     def replaced(self, channel: str, column: str, other: str) -> str:
         """The option that reads a channel from another column in place of `column`."""

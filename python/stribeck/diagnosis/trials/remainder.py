@@ -10,12 +10,19 @@ stands beside them.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
+import numpy as np
+
+from stribeck.base import linear
 from stribeck.diagnosis.residual.unexplained import Unexplained
 from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.evidence import held_out_square
 from stribeck.diagnosis.trials.imitations import NARROW, explained_by_causes
-from stribeck.effect.describe import is_friction
+from stribeck.diagnosis.trials.trial import Trial
+from stribeck.effect.describe import is_drive_train, is_friction
 from stribeck.fitting.result import Fit
+from stribeck.identify.figures import rms
 
 #: The highest confidence of an effect that explains less than the structure which remains, whether
 #: or not a cause of that can be shown: the data are not understood.
@@ -66,6 +73,57 @@ def part_explained(
     part = gain / (gain + unknown) if unknown > 0.0 else 1.0
     is_smaller = remains.is_structure and gain < (remains.share or 0.0)
     return min(part, BESIDE_STRUCTURE) if is_smaller else part
+
+
+def limited(
+    findings: Sequence[Finding], passed: Sequence[Trial], remains: Unexplained
+) -> tuple[Finding, ...]:
+    """Findings of one step with the part that each explains, beside an unknown structure.
+
+    What remains beside the first may be another effect of the catalog: as much of it as the torques
+    of others that pass the test explain is not unknown.
+
+    Parameters
+    ----------
+    passed
+        All trials that pass the test of evidence.
+    remains
+        What remains beside the first finding.
+    """
+    if not findings:
+        return ()
+    first, before = findings[0], findings[0].before
+    square = held_out_square(first.fit, before)
+    if not square > 0.0:
+        return tuple(findings)
+
+    def gain(fit: Fit) -> float:
+        return (held_out_square(before, before) - held_out_square(fit, before)) / square
+
+    known = _explained_by([t.fit for t in passed if t.effect != first.effect], first.fit, before)
+    unknown = max(unknown_structure(first.fit, remains) - known, 0.0)
+    # Without an unknown structure another effect explains what remains.
+    left = remains if unknown > 0.0 else replace(remains, share=0.0)
+
+    def part(finding: Finding) -> float:
+        return part_explained(
+            gain(finding.fit), unknown, left, drive_train=is_drive_train(finding.effect)
+        )
+
+    return tuple(replace(finding, part=part(finding)) for finding in findings)
+
+
+def _explained_by(others: Sequence[Fit], first: Fit, before: Fit) -> float:
+    """The share of the squared error of `first` that the torques of other effects explain, 0..1."""
+    if not others:
+        return 0.0
+    rows = before.rows
+    left = before.weighted(first.held_out_residual[rows])
+    columns = np.column_stack(
+        [before.weighted((other.prediction - before.prediction)[rows]) for other in others]
+    )
+    after = left - columns @ linear.least_norm(columns, left, 1e-8)
+    return 1.0 - rms(after) ** 2 / rms(left) ** 2
 
 
 def imitations(findings: Sequence[Finding]) -> list[str]:
