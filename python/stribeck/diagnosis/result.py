@@ -213,8 +213,11 @@ class Diagnosis(Plotted):
 
     @cached_property
     def trend(self) -> Trend | None:
-        """What changes along the recording, where no temperature was recorded to tell why."""
-        return trend(self.fit)
+        """What changes along the recording, where no temperature was recorded to tell why.
+
+        With the first finding added: an offset changes between runs as friction does.
+        """
+        return trend(self.findings[0].fit if self.findings else self.fit)
 
     def to_dict(self) -> dict[str, object]:
         """The JSON of `stribeck diagnose`."""

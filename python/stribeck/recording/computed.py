@@ -14,7 +14,7 @@ from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Bools, Floats, Ints, floats
 from stribeck.recording.cells import column_numbers
 from stribeck.recording.column_functions import Over
-from stribeck.recording.formula import Formula, channel_column, compile_formula
+from stribeck.recording.formula import ROW, Formula, channel_column, compile_formula
 from stribeck.recording.names import file_unit, parse_name
 from stribeck.recording.readers import Source
 from stribeck.recording.settings import Settings
@@ -161,7 +161,8 @@ def _seen(
 ) -> tuple[Formula, pl.DataFrame]:
     """A formula, and the table with the channels in it that are no columns."""
     formula = _compile(source, table, text, where, None)
-    further = (*formula.over_all, *formula.channels)
+    counted = (ROW,) if formula.counts_rows else ()
+    further = (*formula.over_all, *formula.channels, *counted)
     if not further:
         return formula, table
     if view is None:

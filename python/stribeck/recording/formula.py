@@ -36,6 +36,8 @@ Kind = Literal["number", "text", "truth"]
 Detail = float | str | tuple[str, int] | None
 
 #: ``g`` is the standard acceleration of gravity, m/s2.
+#: The number of the row, from 0, where no column has this name.
+ROW = "row"
 _CONSTANTS = {"pi": 3.141592653589793, "e": 2.718281828459045, "g": 9.80665}
 _TRUTHS = {"true": True, "True": True, "false": False, "False": False}
 _ARITHMETIC: dict[str, Callable[[pl.Expr, pl.Expr], pl.Expr]] = {
@@ -97,6 +99,8 @@ class Formula:
         that the expression is evaluated on.
     over_all
         The functions in it that need all samples.
+    counts_rows
+        Whether it reads the number of the row.
     """
 
     text: str
@@ -107,6 +111,7 @@ class Formula:
     product: bool
     channels: tuple[str, ...] = ()
     over_all: tuple[str, ...] = ()
+    counts_rows: bool = False
 
 
 def channel_column(channel: str) -> str:
@@ -162,6 +167,7 @@ def compile_formula(
         compiler.product,
         tuple(compiler.channels),
         tuple(compiler.over_all),
+        compiler.counts_rows,
     )
 
 
@@ -206,6 +212,7 @@ class _Compiler:
         self.columns: list[str] = []
         self.channels: list[str] = []
         self.over_all: list[str] = []
+        self.counts_rows = False
         self.numbers: list[float] = []
         self.product = True
 
@@ -278,6 +285,10 @@ class _Compiler:
             return _Value(pl.lit(number), "number", position, constant=number)
         if name in _TRUTHS:
             return _Value(pl.lit(_TRUTHS[name]), "truth", position)
+        if name == ROW:
+            self.counts_rows = True
+            count = pl.int_range(0, pl.len()).cast(pl.Float64)
+            return _Value(count, "number", position)
         if CHANNELS.get(name):
             if name not in self.channels:
                 self.channels.append(name)

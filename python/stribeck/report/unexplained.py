@@ -48,7 +48,7 @@ def _structure(left: Unexplained) -> str:
     if not left.is_structure:
         return (
             f"No significant structure remains: {percent(left.share)} of the squared held-out "
-            f"error is more than noise."
+            f"error is shown to be more than noise."
         )
     where = f"; {left.where}" if left.where and left.where != "everywhere" else ""
     return (

@@ -160,6 +160,19 @@ def test_map(write, frame):
     assert read(path, map={"torque": "measured", "temperature": "none"}).temperature is None
 
 
+def test_samples_at_a_known_rate_need_no_time(write, frame):
+    known = read(write(frame))
+    path = write(frame.drop("time"), "untimed.csv")
+    with pytest.raises(RecordingError, match=r'known rate.*`derive="time=row/1000"`'):
+        read(path)
+    found = read(path, derive=f"time=row/{known.rate_hz}")
+    np.testing.assert_allclose(found.time, known.time - known.time[0], atol=1e-9)
+    # A column of this name comes first.
+    rows = frame.drop("time").with_columns(row=frame["time"])
+    again = read(write(rows, "rows.csv"), derive="time=row")
+    np.testing.assert_allclose(again.time, known.time, atol=1e-9)
+
+
 def test_missing_columns(write, frame):
     with pytest.raises(RecordingError, match=r'no time column.*`map="time=COLUMN"`'):
         read(write(frame.drop("time")))

@@ -56,6 +56,7 @@ def run(text: str) -> list:
         ('name == "x" and True', [True, False, True]),
         ("name != 'it\\'s'", [True] * 3),
         ("größe > 1", [True, False, True]),
+        ("row/100 + 0*a", [0.0, 0.01, 0.02]),
     ],
 )
 def test_values(text, expected):

@@ -24,6 +24,8 @@ SCALE = {"velocity": 0.05, "acceleration": 0.2}
 PHASE = 0.3
 #: Whole numbers this close to a ratio are named as a gear ratio.
 _GEAR = 0.002
+#: No gear has a smaller ratio: rather, the velocity is an estimate of its own.
+_LEAST_GEAR = 1.5
 #: Another column is proposed if it has at least this share of common variance.
 _MATCH = 0.99
 _UNITS = {"velocity": "d(position)/dt", "acceleration": "d(velocity)/dt"}
@@ -112,6 +114,9 @@ def _factor(view: View, pair: Pair) -> str:
         if abs(factor / round(factor) - 1.0) < _GEAR:
             factor = float(round(factor))
         why = f"if the {large} is the motor's, {_short(factor)} is the gear ratio"
+        if factor < _LEAST_GEAR:
+            leave_out = option("map", "velocity=none")
+            why = f"give {leave_out}, which derives it from the position; {why}"
     return (
         f"{why}: give {view.derived(large, f'{sign}{{}}/{_short(factor)}')}; otherwise give "
         f"{view.derived(small, f'{sign}{{}}*{_short(factor)}')}"

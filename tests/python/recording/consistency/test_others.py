@@ -25,3 +25,13 @@ def test_other_joints_that_move_are_told(swing: float, moves: bool) -> None:
     names = ["time=t", "position=q_1", "velocity=dq_1", "torque=tau_1"]
     found = [c for c in sb.read(table, map=names).checks if c.check == "others"]
     assert [c.said.split(" as well")[0] for c in found] == (["joint 2 moves"] if moves else [])
+
+
+def test_columns_of_one_matrix_are_no_joints() -> None:
+    """A velocity and a torque beside the position in the columns of a matrix without names."""
+    t = np.arange(1000) / 100.0
+    torque = 2.0 * np.sign(np.cos(t)) - 0.5 * np.sin(t)
+    table = pl.DataFrame({"x_1": t, "x_2": np.sin(t), "x_3": np.cos(t), "x_4": torque})
+    names = ["time=x_1", "position=x_2", "velocity=x_3", "torque=x_4"]
+    found = {check.check: check for check in sb.read(table, map=names).checks}
+    assert "others" not in found and found["torque"].ok
