@@ -30,9 +30,9 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     changes = sign_changes(facts.recording, facts.load[facts.recording.moving])
     if changes >= FEWEST_REVERSALS:
         return None
+    times = f"{changes} time{'s' * (changes != 1)}"
     return Obstacle(
-        f"the load torque changes its sign {changes} times in motion, so that the teeth "
-        "seldom cross the gap",
+        f"the load torque changes its sign {times} in motion, so that the teeth seldom cross the gap",
         "move through the angle at which the load is balanced, back and forth",
     )
 

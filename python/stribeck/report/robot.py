@@ -6,13 +6,15 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.base.errors import joint_called
+from stribeck.base.errors import joint_called, option
 from stribeck.report.diagnosis import doubts
+from stribeck.report.fit import HARDLY
 from stribeck.report.layout import bullets, joined, paragraph, table
 from stribeck.report.numbers import (
     DASH,
     MINUS,
     confidence_text,
+    listed,
     percent,
     plain,
     thousands,
@@ -87,7 +89,7 @@ def robot_fit_text(found: RobotFit) -> str:
         errors_text(found.joints, found.ordinary, balance.held_out),
         friction_text(found.joints),
         _base_text(found),
-        bodies_sentence(found),
+        paragraph(bodies_sentence(found), 0),
         ""
         if found.payload is None
         else paragraph(payload_sentence(found.payload, found.drive_gains), 0),
@@ -97,7 +99,17 @@ def robot_fit_text(found: RobotFit) -> str:
 
 
 def bodies_sentence(found: RobotFit) -> str:
-    """Whether links that can exist have the identified base parameters."""
+    """Whether links that can exist have the identified base parameters, if these say anything."""
+    unknown = [one.joint for one in found.joints if one.relative_residual_held_out > HARDLY]
+    if unknown:
+        cutoff = found.solved.balance.motion.cutoff
+        joints = listed([joint_called(name) for name in unknown])
+        return (
+            f"The model explains hardly any of the torque of {joints}, so that the base parameters "
+            f"say nothing about the links. Try a lower cut-off than {cutoff:.3g} Hz with "
+            f"{option('cutoff')}: above the band of the motion, elasticity and the time between "
+            f"the channels matter. Otherwise a joint, a unit or a sign is wrong."
+        )
     if found.consistent:
         return "Bodies of positive mass density have these base parameters."
     return (

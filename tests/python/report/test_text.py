@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import polars as pl
@@ -25,7 +27,9 @@ from stribeck.report import (
 from stribeck.report.certificate import certificate_text
 from stribeck.report.diagnosis import nothing_found, visible_heading
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
+from stribeck.report.robot import bodies_sentence
 from stribeck.report.unexplained import left_text
+from stribeck.robot.result import RobotFit
 from synthetic import joint, record
 
 
@@ -212,3 +216,18 @@ def test_a_model_that_explains_nothing_is_said_to(tmp_path: Path) -> None:
     assert "coulomb explains hardly any of the torque" in fit.fit_text(fitted)
     usual = sb.fit("coulomb", record(tmp_path, frame, "usual"), starts=1)
     assert "hardly any" not in fit.fit_text(usual)
+
+
+def test_a_robot_whose_torque_is_not_explained_says_nothing_of_its_links() -> None:
+    def fitted(*relative: float) -> RobotFit:
+        joints = [
+            SimpleNamespace(joint=f"Joint{k}", relative_residual_held_out=value)
+            for k, value in enumerate(relative, 1)
+        ]
+        motion = SimpleNamespace(cutoff=31.6)
+        solved = SimpleNamespace(balance=SimpleNamespace(motion=motion))
+        return cast(RobotFit, SimpleNamespace(joints=joints, solved=solved, consistent=True))
+
+    said = bodies_sentence(fitted(1.1, 0.2, 0.95))
+    assert "hardly any of the torque of Joint1 and Joint3" in said and "than 31.6 Hz" in said
+    assert bodies_sentence(fitted(0.5, 0.2, 0.1)).startswith("Bodies of positive mass density")

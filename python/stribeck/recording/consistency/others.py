@@ -38,13 +38,13 @@ def check_others(view: View) -> Check | None:
 
 
 def _said(moving: list[str]) -> Check:
-    which = (
-        f"{joint_called(moving[0])} moves" if len(moving) == 1 else f"joints {listed(moving)} move"
-    )
+    several = len(moving) > 1
+    which = f"joints {listed(moving)} move" if several else f"{joint_called(moving[0])} moves"
+    what = "what they carry" if several else "what it carries"
     return Check(
         "others",
         True,
-        f"{which} as well, and what they carry loads this joint: `stribeck robot` identifies the "
+        f"{which} as well, and {what} loads this joint: `stribeck robot` identifies the "
         f"rigid bodies and the friction of all joints together",
     )
 
