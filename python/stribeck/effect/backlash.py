@@ -32,7 +32,8 @@ def _obstacle(facts: RecordingFacts) -> Obstacle | None:
         return None
     times = f"{changes} time{'s' * (changes != 1)}"
     return Obstacle(
-        f"the load torque changes its sign {times} in motion, so that the teeth seldom cross the gap",
+        f"the load torque changes its sign {times} in motion, so that the teeth seldom cross the "
+        f"gap",
         "move through the angle at which the load is balanced, back and forth",
     )
 
