@@ -91,8 +91,8 @@ def diagnose(
         A longer recording is searched for effects on this number of samples, in evenly spaced
         stretches; the errors are those of all samples.
     brief : bool
-        Without the smallest visible effects; where there are findings, without the explainable
-        share as well, and without what remains, which may limit their confidence.
+        Without the smallest visible effects; where there are findings, without what remains as
+        well, which may limit their confidence.
     progress, known : callable
         Called with a sentence after each candidate, and with what `brief` would return as soon as
         there are findings.
@@ -122,13 +122,17 @@ def diagnose(
             return shown
         known(shown)
     rest = _with_remainder(made, evidence)
-    whole = rest if brief else with_visibility(rest)
-    parts = {finding.effect: finding.part for finding in rest.findings}
-    findings = tuple(replace(found, part=parts[found.effect]) for found in shown.findings)
-    said = replace(whole, fit=shown.fit, findings=findings, demoted=shown.demoted)
+    said = _as_shown(rest if brief else with_visibility(rest), shown)
     if is_whole:
         return said
     return with_remainder_on_all_samples(said, said.findings[0].fit if said.findings else fitted)
+
+
+def _as_shown(whole: Diagnosis, shown: Diagnosis) -> Diagnosis:
+    """A diagnosis with the errors of what was `shown` before, and the parts that it explains."""
+    parts = {finding.effect: finding.part for finding in whole.findings}
+    findings = tuple(replace(finding, part=parts[finding.effect]) for finding in shown.findings)
+    return replace(whole, fit=shown.fit, findings=findings, demoted=shown.demoted)
 
 
 def _findings(
