@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import click
 
 from stribeck.base.errors import SpecError
@@ -17,7 +19,7 @@ from stribeck.cli.outputs import ROBOT
 from stribeck.cli.refused import OF_A_ROBOT, refusing
 from stribeck.cli.robot_runs import passes_options
 from stribeck.robot.arm import Robot
-from stribeck.robot.describe import read_robot
+from stribeck.robot.describe import DESCRIPTIONS, read_robot
 from stribeck.robot.drive_gains import KnownPayload
 from stribeck.robot.fit import ORDINARY
 
@@ -94,12 +96,18 @@ def robot_options(command: Command) -> Command:
     )
 
     def build(values: Values) -> Robot:
-        given = [path for name in ("robot_file", "urdf", "mjcf") if (path := values.pop(name))]
+        names = ("robot_file", "urdf", "mjcf")
+        given = {name: path for name in names if (path := values.pop(name))}
         if len(given) != 1:
             raise SpecError(
                 "one description of the robot is needed: --robot FILE, --urdf FILE or --mjcf FILE"
             )
-        return read_robot(given[0])
+        ((name, path),) = given.items()
+        if name != "robot_file" and Path(path).suffix.lower() not in DESCRIPTIONS:
+            raise SpecError(
+                f"--{name} {path}: a description ends in .urdf or .xml: rename the file"
+            )
+        return read_robot(path)
 
     return gathered(command, options, "described", build)
 

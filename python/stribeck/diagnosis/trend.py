@@ -41,6 +41,8 @@ LEAST_PART = 0.02
 STEADY = 0.8
 #: Of fewer moves that is chance.
 FEWEST_RANKED = 8
+#: Relative difference below which sizes are the same.
+ROUNDING = 1e-9
 #: A part that changes steadily by a larger share of its mean has another sign at one end.
 LARGEST = 2.0
 
@@ -138,8 +140,15 @@ def _motion_changes(recording: Recording) -> bool:
     sizes = [np.bincount(move[rows], c[rows] ** 2)[kept] / count[kept] for c in channels]
     if kept.sum() < FEWEST_RANKED:
         return False
-    order = np.arange(kept.sum())
-    return any(abs(scipy.stats.spearmanr(order, size).statistic) > STEADY for size in sizes)
+    return any(abs(_rank_correlation(size)) > STEADY for size in sizes)
+
+
+def _rank_correlation(sizes: Array) -> float:
+    """Of sizes [k] with their order, -1..1 (Spearman); 0 where all are the same."""
+    if np.ptp(sizes) <= ROUNDING * np.max(sizes):
+        return 0.0
+    rank = np.argsort(np.argsort(sizes, kind="stable"), kind="stable")
+    return float(np.corrcoef(np.arange(sizes.size), rank)[0, 1])
 
 
 def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Trend | None:

@@ -20,6 +20,9 @@ from stribeck.effect.position import generated_ends, stroke_ends, stroke_is_not_
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 
+#: A second harmonic that is so many times larger than the first is the ripple.
+DOMINANT = 3.0
+
 
 def ripple_period_of(model: Model) -> float:
     """Period of the fitted ripple, in the unit of position."""
@@ -59,6 +62,8 @@ def _where(before: Identified, after: Identified) -> str:
         float(np.hypot(m.value(f"ripple_{part}cos"), m.value(f"ripple_{part}sin")))
         for part in ("", "second_")
     )
+    if second > DOMINANT * first:
+        period /= 2.0
     digits = _digits(after.recording, period)
     turn = ""
     if after.recording.joint_kind == "revolute":

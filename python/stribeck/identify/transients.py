@@ -6,7 +6,7 @@ are the same for every model.
 
 A drive train, an inertia or a delay causes large errors wherever the joint accelerates hard. The
 error of a stretch is therefore compared with that of the stretches of similar acceleration too.
-Nor is a stretch a transient that a fit explains which has seen it: it may only be the slowest.
+A stretch that a fit explains once it has seen it is no transient either, but may be the slowest.
 """
 
 from __future__ import annotations

@@ -35,6 +35,8 @@ _KEYS = (
 )
 _NUMBERS = ("a", "d", "alpha_deg", "alpha", "theta_deg", "theta", "drive_gain")
 _ROW = ("name", "kind", *_NUMBERS, "torque_limit", "motor_turns")
+#: Endings of a URDF or an MJCF.
+DESCRIPTIONS = (".urdf", ".xml")
 #: Channels of a joint that `[columns]` may name.
 CHANNELS = ("time", "position", "velocity", "acceleration", "torque", "current", "temperature")
 
@@ -61,7 +63,7 @@ def read_robot(path: str | Path) -> Robot:
     ('1', '2')
     """
     where = Path(path)
-    if where.suffix.lower() in (".urdf", ".xml"):
+    if where.suffix.lower() in DESCRIPTIONS:
         return _described(where)
     text = TomlText(where, read_text(where, "robot file", ModelFileError), ModelFileError)
     content = text.parsed()

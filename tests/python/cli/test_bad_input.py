@@ -216,3 +216,9 @@ def test_several_joints_are_never_picked_silently(tmp_path: Path, frame: pl.Data
     refused(fit(path), "hip", "knee", "--joint")
     assert fit(path, "--joint", "knee").returncode == 0
     assert stribeck("inspect", path, "--json").returncode == 0
+
+
+def test_a_description_of_a_robot_has_its_ending(tmp_path: Path, frame: pl.DataFrame) -> None:
+    path = tmp_path / "run.csv"
+    frame.write_csv(path)
+    refused(stribeck("robot", "fit", path, "--urdf", path), "--urdf", "ends in .urdf or .xml")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.trend import DRY, LOAD, VISCOUS, trend
+from stribeck.diagnosis.trend import DRY, LOAD, VISCOUS, _rank_correlation, trend
 from stribeck.report.diagnosis import diagnosis_summary, trend_text
 from synthetic import COULOMB, joint, motion, record
 from synthetic import VISCOUS as COEFFICIENT
@@ -133,3 +133,11 @@ def test_few_moves_show_no_trend(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert trend(fitted) is None
     monkeypatch.setattr("stribeck.diagnosis.trend.FEWEST_MOVES", 0)
     assert trend(fitted) is not None
+
+
+def test_moves_of_one_size_do_not_change() -> None:
+    assert _rank_correlation(np.full(20, 0.3)) == 0.0
+    assert _rank_correlation(np.arange(1.0, 21.0)) == pytest.approx(1.0)
+    assert _rank_correlation(-np.arange(20.0) + 30.0) == pytest.approx(-1.0)
+    found = _rank_correlation(np.random.default_rng(1).uniform(1.0, 2.0, 100))
+    assert abs(found) < 0.3

@@ -94,3 +94,24 @@ def test_a_filter_of_the_velocity_explains_a_torque_that_leads(
     text = where("delay", late, late)
     assert text.endswith(said)
     assert ("the velocity is 7.99 ms behind the position" in text) is bool(said)
+
+
+@pytest.mark.parametrize(("second", "period"), [(0.02, "0.1 rad"), (0.2, "0.05 rad")])
+def test_a_ripple_whose_second_harmonic_dominates_has_that_period(
+    second: float, period: str, tmp_path: Path
+) -> None:
+    """The period of 0.1 rad is that of the first harmonic."""
+    values = {"ripple_cos": 0.03, "ripple_sin": 0.0, "ripple_second_sin": 0.0}
+    zero = {"ripple_second_cos": second, "ripple_detuning": 0.0}
+    made = sb.model("coulomb", coulomb_friction=2.0, viscous_friction=0.5)
+    constants = {"position_length": 1.0, "position_start": 0.0, "ripple_period": 0.1}
+    model = made.with_effect("ripple", constants)
+    known = dict(zip(model.names, model.values, strict=True)) | values | zero
+    after = cast(
+        Identified,
+        SimpleNamespace(
+            model=model.with_values([known[name] for name in model.names]),  # type: ignore[arg-type]
+            recording=record(tmp_path, joint()),
+        ),
+    )
+    assert f"repeats every {period} " in where("ripple", after, after)

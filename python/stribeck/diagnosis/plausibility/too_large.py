@@ -29,6 +29,6 @@ def too_large(claim: Claim) -> str | None:
     unit = claim.after.model.torque_unit
     of = " minus the known load" if recording.torque_holds_load else ""
     return (
-        f"its torque would be {number(own)} {unit}, and the measured torque{of}, with zero, spans "
-        f"only {number(span)} {unit}"
+        f"its torque would be {number(own)} {unit}, and the range of the measured torque{of}, zero "
+        f"included, is only {number(span)} {unit}"
     )
