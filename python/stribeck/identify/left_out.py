@@ -37,8 +37,8 @@ def left_out_notes(recording: Recording, marked: Bools) -> tuple[str, ...]:
     spans = ", ".join(f"{a:.1f}-{b:.1f} s" for a, b in found)
     return (
         *notes,
-        f"no friction model explains the motion at {spans} (an approach move or an abrupt stop?): "
-        f"scored, but excluded from the fit",
+        f"friction models fitted to the rest do not explain the motion at {spans} (an approach "
+        f"move, an abrupt stop, or a motion unlike the rest): scored, but excluded from the fit",
     )
 
 

@@ -6,7 +6,6 @@ are the same for every model.
 
 A drive train, an inertia or a delay causes large errors wherever the joint accelerates hard. The
 error of a stretch is therefore compared with that of the stretches of similar acceleration too.
-A stretch that a fit explains once it has seen it is no transient either, but may be the slowest.
 """
 
 from __future__ import annotations
@@ -84,19 +83,16 @@ def transient_rows(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
     ).astype(np.uint32)
     similar = _similar(_levels(recording.acceleration_smooth, window, moving))
-    unexplained = [
-        level > factor * np.median(level)
-        for level, factor in _errors(recording, _seen(columns, target, moving), window, moving)
-    ]
     marked = none
     for _ in range(4):
         residual = _left_out(columns, target, window, moving, moving & ~marked)
+        slow = zero_phase(recording, residual)
         outlier = unlike = np.zeros(WINDOWS, dtype=bool)
-        errors = _errors(recording, residual, window, moving)
-        for (level, factor), is_unexplained in zip(errors, unexplained, strict=True):
+        for values, factor in ((slow, OUTLIER_FILTERED), (residual, OUTLIER_RAW)):
+            level = _levels(values, window, moving)
             # The motion differs between windows: an outlier also exceeds the worst normal ones.
             normal = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
-            large = (level > normal) & is_unexplained
+            large = level > normal
             outlier = outlier | large
             unlike = unlike | (large & (level > factor * np.median(level[similar], axis=1)))
         again = moving & unlike[window]
@@ -106,25 +102,6 @@ def transient_rows(
             break
         marked = again
     return marked
-
-
-def _errors(
-    recording: Recording, residual: Array, window: NDArray[np.uint32], moving: NDArray[np.bool_]
-) -> list[tuple[Array, float]]:
-    """RMS of a residual in each window, filtered and raw, and the factor of an outlier of each."""
-    slow = zero_phase(recording, residual)
-    return [
-        (_levels(slow, window, moving), OUTLIER_FILTERED),
-        (_levels(residual, window, moving), OUTLIER_RAW),
-    ]
-
-
-def _seen(columns: Array, target: Array, moving: NDArray[np.bool_]) -> Array:
-    """Residual [n] of a fit to all `moving` samples; 0 at rest."""
-    sums = NormalEquations.of(columns, target, (~moving).astype(np.uint32), 2)
-    ridge = 1e-6 * moving.sum() * np.eye(columns.shape[1])
-    found = linear.solve(sums.matrix[0] + ridge, sums.vector[0])
-    return np.asarray(np.where(moving, target - columns @ found, 0.0))
 
 
 def _levels(values: Array, window: NDArray[np.uint32], moving: NDArray[np.bool_]) -> Array:

@@ -54,20 +54,6 @@ def test_what_comes_again_and_again_is_no_transient(tmp_path: Path) -> None:
     assert not transient_rows(record(tmp_path, joint(extra))).any()
 
 
-def test_a_state_that_one_stretch_alone_shows_is_no_transient(tmp_path: Path) -> None:
-    """A fit without the stretch cannot know its friction; one that has seen it explains it."""
-    frame = joint()
-    t, v = frame["time"].to_numpy(), frame["velocity"].to_numpy()
-    warmer = np.where((t > 12.0) & (t < 12.4), 30.0, 0.0)
-    warm = frame.with_columns(
-        temperature=30.0 + warmer, torque=frame["torque"] + 0.5 * warmer * np.sign(v)
-    )
-    assert not transient_rows(record(tmp_path, warm)).any()
-    # The same torque without the temperature that explains it.
-    cold = warm.with_columns(temperature=frame["temperature"])
-    assert transient_rows(record(tmp_path, cold, "cold")).any()
-
-
 def bumps(times: tuple[float, ...], size: float, lasting: float = 0.3) -> np.ndarray:
     """Blows of `size` N m at some times."""
     t = motion()[0]

@@ -353,6 +353,12 @@ def stored(story: Story) -> Path:
     return EXPECTED / f"{story.name}.json"
 
 
+def references(story: Story) -> list[Path]:
+    """All references of a story: an answer is right that agrees with one of them."""
+    both = (EXPECTED / f"{story.name}.json", EXPECTED / f"{story.name}-avx512.json")
+    return [path for path in both if path.exists()]
+
+
 def dumped(on: dict[str, Json], answers: list[dict[str, Json]]) -> str:
     """A reference as text: a line for each part of an answer."""
     lines = [f'{{"machine": {json.dumps(on)},', '"answers": [']

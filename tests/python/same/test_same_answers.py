@@ -8,7 +8,8 @@ modules may move. To see whether another tree answers the same, put it first on 
 
 On the kind of machine that recorded the references every digit counts; on another, numbers have to
 agree to a relative 1e-6. Stories whose fits depend on the processor more than that have a reference
-for each width of vectors. Additional keys of an answer are no difference.
+of two kinds of processors, and the answers must agree with one of them. Additional keys of an
+answer are no difference.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import json
 from pathlib import Path
 
 import pytest
-from same_answers import EXPECTED, Story, differences, machine, stored, stories, tell
+from same_answers import EXPECTED, Json, Story, differences, machine, references, stories, tell
 
 STORIES = stories()
 
@@ -34,15 +35,21 @@ def test_the_answers_are_the_same(story: Story, tmp_path: Path) -> None:
     for path in story.shared:
         if not path.is_file():
             pytest.skip(f"{path} is not there")
-    reference = json.loads(stored(story).read_text())
-    answers = tell(story, tmp_path)
-    exact = reference["machine"] == machine()
-    assert [a["command"] for a in answers] == [a["command"] for a in reference["answers"]]
-    found = []
-    for expected, now in zip(reference["answers"], answers, strict=True):
-        lines = list(differences(expected, json.loads(json.dumps(now)), exact))
-        found += [f"stribeck {now['command']}\n    " + "\n    ".join(lines[:12])] if lines else []
+    answers = json.loads(json.dumps(tell(story, tmp_path)))
+    found = min((changed(path, answers) for path in references(story)), key=len)
     assert not found, "\n" + "\n".join(found)
+
+
+def changed(reference: Path, answers: list[dict[str, Json]]) -> list[str]:
+    """The commands that answer otherwise than a reference says, and what differs."""
+    kept = json.loads(reference.read_text())
+    exact = kept["machine"] == machine()
+    assert [a["command"] for a in answers] == [a["command"] for a in kept["answers"]]
+    found = []
+    for expected, now in zip(kept["answers"], answers, strict=True):
+        lines = list(differences(expected, now, exact))
+        found += [f"stribeck {now['command']}\n    " + "\n    ".join(lines[:12])] if lines else []
+    return found
 
 
 def test_the_list_is_long_enough() -> None:
