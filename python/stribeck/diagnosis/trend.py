@@ -104,6 +104,8 @@ def trend(fitted: Fit) -> Trend | None:
     r = fitted.recording
     if r.temperature is not None or r.averaged or "drift" in fitted.model.effects:
         return None
+    if _motion_changes(r):
+        return None
     try:
         parts = _parts(fitted)
         problem = Problem(r, fitted.model, fitted.rows, fitted.load)
@@ -112,8 +114,6 @@ def trend(fitted: Fit) -> Trend | None:
         return None
     seconds = float(r.elapsed[-1] - r.elapsed[0])
     if DRY not in parts or not seconds > 0.0:
-        return None
-    if _motion_changes(r):
         return None
     share = (r.elapsed[fitted.rows] - r.elapsed[0]) / seconds - 0.5
     # A known load has no parameter of its own; its scale may be wrong throughout.
@@ -124,7 +124,9 @@ def trend(fitted: Fit) -> Trend | None:
         return found
     base = columns[:, : columns.shape[1] - len(parts)]
     with_zero = np.column_stack([base, np.ones_like(share), share])
-    return replace(found, cause="zero") if _fall(fitted, with_zero) >= found.fall else found
+    return (
+        replace(found, cause="zero") if _Solved.of(fitted, with_zero).fall >= found.fall else found
+    )
 
 
 def _motion_changes(recording: Recording) -> bool:
@@ -153,14 +155,11 @@ def _rank_correlation(sizes: Array) -> float:
 
 def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Trend | None:
     """The trend in the last columns [m, p + k] of a linearised fit."""
-    residual = fitted.weighted(fitted.residual[fitted.rows])
-    scaled, size = _scaled(fitted, columns)
-    values = linear.least_norm(scaled, residual, 1e-8)
-    left = residual - scaled @ values
-    fall = 1.0 - rms(left) / rms(residual) if rms(residual) > 0.0 else 0.0
+    solved = _Solved.of(fitted, columns)
+    scaled, size, values, left = solved.scaled, solved.size, solved.values, solved.left
     move = np.maximum(moves(fitted.recording)[fitted.rows], 0)
-    gains = np.bincount(move, (residual - left) ** 2).astype(np.float64)
-    if fall < LEAST_FALL or fewest(gains) < FEWEST_MOVES:
+    gains = np.bincount(move, (solved.residual - left) ** 2).astype(np.float64)
+    if solved.fall < LEAST_FALL or fewest(gains) < FEWEST_MOVES:
         return None
     batch = batches(left.size, correlation_length(left), fewest=20)
     free = np.ones(scaled.shape[1], dtype=bool)
@@ -176,22 +175,37 @@ def _found(fitted: Fit, columns: Array, names: list[str], seconds: float) -> Tre
         name: Change(float(share), float(error), bool(shown))
         for name, share, error, shown in zip(names, shares, errors, clear, strict=True)
     }
-    return Trend(seconds, changes, fall, _cause(changes))
+    return Trend(seconds, changes, solved.fall, _cause(changes))
 
 
-def _fall(fitted: Fit, columns: Array) -> float:
-    """Relative fall of the RMSE with columns [m, k] in the place of a linearised fit."""
-    residual = fitted.weighted(fitted.residual[fitted.rows])
-    scaled, _ = _scaled(fitted, columns)
-    left = residual - scaled @ linear.least_norm(scaled, residual, 1e-8)
-    return 1.0 - rms(left) / rms(residual)
+@dataclass(frozen=True)
+class _Solved:
+    """Least squares of a fit's weighted residual [m] on columns of RMS one, without zero ones.
 
+    `size` [k] is the RMS of every column, `left` what remains of the residual.
+    """
 
-def _scaled(fitted: Fit, columns: Array) -> tuple[Array, Array]:
-    """Weighted columns [m, k] of RMS one, without those that are zero, and the size of each [k]."""
-    weighted = np.column_stack([fitted.weighted(column) for column in columns.T])
-    size = np.sqrt((weighted**2).mean(axis=0))
-    return weighted[:, size > 0.0] / size[size > 0.0], size
+    residual: Array
+    scaled: Array
+    size: Array
+    values: Array
+    left: Array
+
+    @classmethod
+    def of(cls, fitted: Fit, columns: Array) -> _Solved:
+        """On columns [m, k], which are weighted as the residual is."""
+        residual = fitted.weighted(fitted.residual[fitted.rows])
+        weighted = np.column_stack([fitted.weighted(column) for column in columns.T])
+        size = np.sqrt((weighted**2).mean(axis=0))
+        scaled = weighted[:, size > 0.0] / size[size > 0.0]
+        values = linear.least_norm(scaled, residual, 1e-8)
+        return cls(residual, scaled, size, values, residual - scaled @ values)
+
+    @property
+    def fall(self) -> float:
+        """Relative fall of the RMSE."""
+        before = rms(self.residual)
+        return 1.0 - rms(self.left) / before if before > 0.0 else 0.0
 
 
 def _parts(fitted: Fit) -> dict[str, Array]:

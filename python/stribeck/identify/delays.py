@@ -82,13 +82,8 @@ def error_across_minima(
     """
     if not rise > 0.0:
         return stderr
-    return max(
-        [
-            stderr,
-            *(
-                abs(float(other.values[delay] - values[delay]))
-                / float(np.sqrt(max((other.square - found.square) / rise, 1.0)))
-                for other in found.others
-            ),
-        ]
-    )
+    error = stderr
+    for other in found.others:
+        errors_apart = float(np.sqrt(max((other.square - found.square) / rise, 1.0)))
+        error = max(error, abs(float(other.values[delay] - values[delay])) / errors_apart)
+    return error

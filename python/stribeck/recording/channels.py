@@ -144,7 +144,7 @@ def require(prepared: Prepared) -> None:
     if "time" not in have and not prepared.settings.average:
         raise RecordingError(
             f"{path}: there is no time column; {there}: name it with "
-            f"{option('map', 'time=COLUMN')}; of samples at a known rate, such as 1000 Hz, give "
+            f"{option('map', 'time=COLUMN')}; for samples at a known rate, such as 1000 Hz, give "
             f"{option('derive', 'time=row/1000')}; if each row is a steady-state point, give "
             f"{option('average', 'row')}"
         )

@@ -281,8 +281,8 @@ def trend_text(found: Trend | None) -> str:
         )
     if found.cause == "zero":
         return (
-            f"{said}, which explains it as well; friction changes not clearly. Compare the torque "
-            f"at rest at the same position before and after, without a payload."
+            f"{said}, which explains it as well; friction does not change clearly. Compare the "
+            f"torque at rest at the same position before and after, without a payload."
         )
     return (
         f"{said}. No temperature was recorded: this may be temperature, wear or run-in. Record the "

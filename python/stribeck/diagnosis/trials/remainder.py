@@ -93,22 +93,17 @@ def limited(
     if not findings:
         return ()
     first, before = findings[0], findings[0].before
-    square = held_out_square(first.fit, before)
+    level, square = held_out_square(before, before), held_out_square(first.fit, before)
     if not square > 0.0:
         return tuple(findings)
-
-    def gain(fit: Fit) -> float:
-        return (held_out_square(before, before) - held_out_square(fit, before)) / square
-
     known = _explained_by([t.fit for t in passed if t.effect != first.effect], first.fit, before)
     unknown = max(unknown_structure(first.fit, remains) - known, 0.0)
     # Without an unknown structure another effect explains what remains.
     left = remains if unknown > 0.0 else replace(remains, share=0.0)
 
     def part(finding: Finding) -> float:
-        return part_explained(
-            gain(finding.fit), unknown, left, drive_train=is_drive_train(finding.effect)
-        )
+        gain = (level - held_out_square(finding.fit, before)) / square
+        return part_explained(gain, unknown, left, drive_train=is_drive_train(finding.effect))
 
     return tuple(replace(finding, part=part(finding)) for finding in findings)
 

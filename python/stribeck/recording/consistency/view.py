@@ -84,8 +84,8 @@ class View:
     def of_other_joints(self, column: str) -> dict[str, str]:
         """Joint -> column of the same name but for the number of the joint.
 
-        None where one of them is a channel of this joint: then the numbers are those of the columns
-        of a matrix.
+        Empty where one of them is a channel of this joint: then the numbers are those of the
+        columns of a matrix.
         """
         found = same_of_joint(self.prepared.table.columns, column)
         own = {name for channel in self.prepared.choices for name in self.columns_of(channel)}
