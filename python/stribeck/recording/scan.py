@@ -199,6 +199,8 @@ def _pace(prepared: Prepared) -> tuple[int, float | None, int | None]:
         time = column_numbers(prepared.source, prepared.table, prepared.row, choices["time"].source)
     except RecordingError:
         return 1, None, None
+    # Infinite cells are refused with the missing ones when the recording is read.
+    time = np.where(np.isinf(time), np.nan, time)
     if choices["time"].unit is not None:
         time = time * choices["time"].unit.factor
     code = np.zeros(len(time), dtype=np.int64)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 
 import numpy as np
 import polars as pl
@@ -345,3 +346,10 @@ def test_the_torque_of_another_joint_is_not_taken(names):
     with pytest.raises(RecordingError, match="there is no torque column"):
         read(pl.DataFrame(table), joint=joints[0])
     assert read(pl.DataFrame(table), joint=joints[1]).rows == 500
+
+
+def test_a_time_that_is_infinite_is_looked_at_without_a_warning(write, frame):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        found = scan(write(frame), derive="time=row/0")
+    assert found.rate_hz is None
