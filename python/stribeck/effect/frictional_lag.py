@@ -28,6 +28,8 @@ FEWEST, SLOW_PASS = 5, 2.0
 PART = 0.25
 #: A lag beyond this share of a typical move is none: friction would belong to another move.
 LONGEST = 0.1
+#: A lag below this part of a sample is none: it is less than interpolation errs.
+LEAST_PART = 0.1
 #: A low-pass averages a derived velocity over this part of a period of its cut-off to each side.
 QUARTER = 0.25
 
@@ -76,11 +78,15 @@ def _without_curve(model: Model, _: Recording | Array) -> str | None:
 
 
 def _where(before: Identified, after: Identified) -> str:
-    return (
-        "the decrease of friction with speed is delayed by "
-        f"{number(1e3 * after.model.value('frictional_lag'))} ms: at the same low speed "
-        "friction is higher while the joint speeds up than while it slows down"
+    lag = after.model.value("frictional_lag")
+    said = (
+        f"the decrease of friction with speed is delayed by {number(1e3 * lag)} ms: at the same "
+        "low speed friction is higher while the joint speeds up than while it slows down"
     )
+    if not _within_a_sample(after):
+        return said
+    period = 1e3 * after.recording.scales()["sample_period"]
+    return f"{said}; that is less than the {number(period)} ms between samples: record faster"
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:
@@ -119,10 +125,18 @@ def _out_of_reach(after: Identified) -> str | None:
     )
 
 
+def _within_a_sample(after: Identified) -> bool:
+    # A delay before zero brings the curve forward: what is left of the lag counts.
+    model = after.model
+    forward = min(model.value("delay"), 0.0) if model.has("delay") else 0.0
+    lag = model.value("frictional_lag") + forward
+    return lag < after.recording.scales()["sample_period"]
+
+
 def _unresolved(after: Identified) -> str | None:
     lag, r = after.model.value("frictional_lag"), after.recording
-    if lag < r.scales()["sample_period"]:
-        return f"friction would lag by {number(1e3 * lag)} ms, less than a sample"
+    if lag < LEAST_PART * r.scales()["sample_period"]:
+        return f"friction would lag by {number(1e3 * lag)} ms, less than a tenth of a sample"
     if r.columns["velocity"].derived and r.cutoff_hz is not None and lag < QUARTER / r.cutoff_hz:
         return (
             f"friction would lag by {number(1e3 * lag)} ms, less than the time over which the "
@@ -142,6 +156,7 @@ EFFECT = Effect(
     free_form=OF_SPEED,
     size_range=(10.0, 1e-2),
     unresolved=_unresolved,
+    within_a_sample=_within_a_sample,
     out_of_reach=_out_of_reach,
     cannot_hide=_without_curve,
 )

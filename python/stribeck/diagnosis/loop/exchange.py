@@ -146,13 +146,16 @@ def _tried(
             continue
         present = Trial(finding.effect, current, by.evidence)
         worse, better = tie_statistic(by, present), tie_statistic(present, by)
-        judged = standing(without, by, (present,), least)
+        part = _simpler_in_place(by, finding, current, without, seed)
+        judged = standing(without, by, (present, *part), least)
         if judged.refused:
             continue
         # What causes in the measurement explain as well may not come in by the back door.
         if judged.stand and _is_preferred(finding, by, current, worse, better):
             most = _most(finding, by, judged)
             made.append(Exchange(finding, without, by, worse, most))
+        elif by.only_delays(finding.effect):
+            continue
         elif better <= SIMPLEST and (by.parameters <= len(current.model.names) or worse > SIMPLEST):
             ties[by.effect] = tie_weight(better)
     return _Tried((*made, *_given_way(finding, without, spoilt, current, seed)), ties)
@@ -213,6 +216,17 @@ def _in_place(finding: Finding, current: Fit, without: Fit, effect: str, seed: i
         return None
     claim = _claim(trial, without)
     return None if impossible(claim) or weak(claim) else trial
+
+
+def _simpler_in_place(
+    by: Trial, finding: Finding, current: Fit, without: Fit, seed: int
+) -> tuple[Trial, ...]:
+    """The trial, in place of an effect, of the simpler one that another brings; or nothing."""
+    simpler = simpler_effect(by.effect)
+    if simpler is None or simpler == finding.effect or without.model.has(simpler):
+        return ()
+    trial = _in_place(finding, current, without, simpler, seed)
+    return () if trial is None else (trial,)
 
 
 def _most(finding: Finding, by: Trial, judged: Sifted) -> float:

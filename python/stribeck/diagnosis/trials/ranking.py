@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -61,7 +60,7 @@ def ranked(
 
     Without findings where even the best explains hardly any of the unexplained error.
     """
-    good = _simplest_first(before, sift.stand)
+    good = _simplest_first(before, sift)
     if not good:
         return _none_but_demoted(before, sift, tried, floor)
     best = good[0]
@@ -103,17 +102,19 @@ def ranked(
     return replace(besides, findings=tuple(made))
 
 
-def _simplest_first(before: Fit, stand: Sequence[Trial]) -> list[Trial]:
+def _simplest_first(before: Fit, sift: Sifted) -> list[Trial]:
     """Trials from the best on, without it where a torque that it contains explains nearly as much.
 
-    What a spring brings beyond its mean, an offset, is asked in the next step.
+    What a spring brings beyond its mean, an offset, is asked in the next step. So is what a lag
+    within a sample brings beyond its Stribeck curve, which alone may be certain.
     """
-    good = list(stand)
-    if not good or is_friction(good[0].effect):
-        return good
+    good = list(sift.stand)
     simpler = next((t for t in good[1:] if t.effect == simpler_effect(good[0].effect)), None)
     if simpler is None:
         return good
+    if is_friction(good[0].effect):
+        is_in_doubt = sift.most.get(good[0].effect, 1.0) <= DEMOTED
+        return [simpler, *(t for t in good if t is not simpler)] if is_in_doubt else good
     level, best, other = (held_out_square(f, before) for f in (before, good[0].fit, simpler.fit))
     if level - other < ALIKE * (level - best):
         return good
@@ -218,11 +219,13 @@ def _doubtful_ties(
     They are alternatives all the same: another cause, that the catalog does not hold, may have such
     a torque. So are those that gain only outside the band of the motion, such as the shocks of a
     backlash, which an elasticity imitates. Friction acts in the band: none of these replaces it.
-    An effect with impossible values that has the very torque of the best is no alternative.
+    An effect with impossible values that has the very torque of the best is no alternative. Nor is
+    one that delays the best by less than a sample.
     """
     rivals = () if is_friction(best.effect) else sift.rivals
     refused = [row.trial for row in sift.refused if not only_imitates(row.trial, best, before)]
-    trials = [*(row.trial for row in sift.demoted), *refused, *rivals]
+    demoted = [row.trial for row in sift.demoted if not row.trial.only_delays(best.effect)]
+    trials = [*demoted, *refused, *rivals]
     left = structure_share(best.fit, floor)
 
     def weight(trial: Trial) -> float:

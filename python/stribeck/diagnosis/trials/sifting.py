@@ -74,7 +74,8 @@ class Sifted:
 
     def narrowed(self, trial: Trial, most: float) -> Sifted:
         """The same with one trial that stands, but by little: with a confidence of at most that."""
-        return replace(self, most={**self.most, trial.effect: most})
+        lowest = min(most, self.most.get(trial.effect, 1.0))
+        return replace(self, most={**self.most, trial.effect: lowest})
 
     def instead(self, trial: Trial, judged: Sifted) -> Sifted:
         """The same without one trial that stands, and with what was `judged` of it again."""

@@ -20,6 +20,7 @@ from stribeck.diagnosis.visibility.model_space import MOST_ROWS
 from stribeck.diagnosis.visibility.subspace import orthonormal, outside_span
 from stribeck.effect.base import number
 from stribeck.effect.describe import acts_in_shocks, is_friction
+from stribeck.effect.registry import find
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.at_bound import wider
@@ -27,7 +28,7 @@ from stribeck.identify.choices import Choices
 from stribeck.identify.effort import FROM_NEARBY, QUICK, THOROUGH
 from stribeck.identify.estimates import Estimate
 from stribeck.identify.problem import Problem
-from stribeck.models.catalog import catalog
+from stribeck.models.catalog import catalog, simpler_effect
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
 
@@ -88,6 +89,16 @@ class Trial:
     def is_implausible(self) -> bool:
         """Whether the effect's size is at its bound: the fit uses it as a proxy for another."""
         return self.size is not None and self.size.at_bound
+
+    @property
+    def is_within_a_sample(self) -> bool:
+        """Whether the effect acts over less than a sample."""
+        known = find(self.effect)
+        return known is not None and known.within_a_sample(self.fit)
+
+    def only_delays(self, effect: str) -> bool:
+        """Whether it is another effect that lags by less than a sample."""
+        return self.is_within_a_sample and simpler_effect(self.effect) == effect
 
     @property
     def bound_reason(self) -> str:
