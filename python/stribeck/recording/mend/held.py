@@ -23,6 +23,10 @@ __all__ = ["Held"]
 _STEPS = 3.0
 #: With such a share of the rows in motion that repeat the row before, they are no exception.
 _MANY = 0.05
+#: A channel that keeps its value in such a share of the rows in which the others do holds it too.
+_MOSTLY = 0.8
+#: Channels that are updated one after the other are so in such a part of the rows that they hold.
+_QUICK = 0.5
 
 
 @dataclass(frozen=True)
@@ -43,7 +47,7 @@ class Held:
         time, position = data.values.get("time"), data.values.get("position")
         if time is None or position is None or not np.any(np.diff(position) == 0.0):
             return cls(held)
-        joints = _of_all_joints(data) or [data.measured]
+        joints = _of_all_joints(data) or [_with_load(data)]
         if any("position" not in one or len(one) < 2 for one in joints):
             return cls(held)
         same = np.all([np.diff(v) == 0.0 for one in joints for v in one.values()], axis=0)
@@ -56,7 +60,29 @@ class Held:
         # At rest the logger holds values no longer than in motion: what lasts longer is rest.
         length = _lengths(same)
         held[1:] = same & (length <= length[same & moved].max())
+        held[1:-1] |= _not_complete(same, length, moved)
         return cls(held, always=True)
+
+
+def _with_load(data: Channels) -> dict[str, Floats]:
+    """The measured channels, with a load torque that holds its values as they do."""
+    measured, load = data.measured, data.values.get("load_torque")
+    if load is None or len(measured) < 2:
+        return measured
+    same = np.all([np.diff(v) == 0.0 for v in measured.values()], axis=0)
+    holds = np.diff(load)[same] == 0.0
+    # One that changes while the others hold is read faster than they are.
+    return {**measured, "load_torque": load} if holds.mean() > _MOSTLY else measured
+
+
+def _not_complete(same: Bools, length: Ints, moved: Bools) -> Bools:
+    """Rows in which some channels are new and others follow in the next one, [n - 2].
+
+    Channels that a logger updates one after the other change in few rows, and then hold for many.
+    """
+    usual = float(np.median(length[same & moved]))
+    quick = ~same & (length <= _QUICK * usual)
+    return np.asarray(quick[:-1] & quick[1:])
 
 
 def _of_all_joints(data: Channels) -> list[dict[str, Floats]]:

@@ -32,6 +32,28 @@ def test_a_logger_that_writes_faster_than_channels_change(write):
     assert recording.gaps == 0
 
 
+def test_of_channels_updated_one_after_the_other_the_last_row_is_complete(write):
+    """The load torque follows one row after the other channels, and all hold for 15 rows."""
+    frame = joint(rows=ROWS, rate=1000.0)
+    changes = np.arange(0, ROWS, 15)
+    written = held(frame, changes, CHANNELS)
+    late = np.roll(held(frame, changes, ("load_torque",))["load_torque"].to_numpy(), 1)
+    recording = read(write(written.with_columns(load_torque=late)))
+    kept = changes[1:] + 1
+    np.testing.assert_array_equal(recording.time[-kept.size :], frame["time"].to_numpy()[kept])
+    torque = frame["torque"].to_numpy()[changes[1:]]
+    np.testing.assert_array_equal(recording.torque[-kept.size :], torque)
+    load = frame["load_torque"].to_numpy()[changes[1:]]
+    np.testing.assert_array_equal(recording.load_torque[-kept.size :], load)
+
+
+def test_a_load_torque_that_is_read_faster_does_not_count(write):
+    frame = joint(rows=ROWS, rate=1000.0)
+    changes = np.arange(0, ROWS, 15)
+    recording = read(write(held(frame, changes, CHANNELS)))
+    np.testing.assert_array_equal(recording.time, frame["time"].to_numpy()[changes])
+
+
 def test_a_log_that_was_not_updated_is_refused(write):
     frame = joint(rows=ROWS).select("time", *CHANNELS)
     frozen = held(frame, np.array([0, 2000]), CHANNELS)
