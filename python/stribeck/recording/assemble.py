@@ -25,6 +25,7 @@ from stribeck.recording.prepared import Prepared, columns_of
 from stribeck.recording.proposals import propose
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.reference import check_reference, load_reference, with_reference
+from stribeck.recording.repeated_motion import held_out_together
 from stribeck.recording.sampled import sampled
 from stribeck.recording.samples import check_size, check_time, drop_missing, in_runs
 from stribeck.recording.torque_at import guess_torque_at
@@ -73,7 +74,7 @@ def build(
     made = replace(made, checks=(*data.doubts, *checked(made, prepared, data.rows)))
     made = settled(made, data, standstill=standstill)
     if prepared.settings.hold_out is None:
-        return made
+        return held_out_together(made)
     return with_hold_out(made, prepared, data.rows, prepared.settings.hold_out, layout)
 
 

@@ -20,6 +20,7 @@ from stribeck.recording.origin import Origin
 from stribeck.recording.prepared import Prepared
 from stribeck.recording.readers import Source
 from stribeck.recording.recording import Column, Recording
+from stribeck.recording.repeated_motion import held_out_together
 from stribeck.recording.rows import MANY_RUNS
 from stribeck.recording.several.agree import check_agreement
 from stribeck.recording.several.part import Part, joined_values
@@ -66,7 +67,7 @@ def join(parts: Sequence[Part], path: str, *, standstill: bool = False) -> Recor
         made = replace(made, block=ints(block), block_count=len(parts))
     hold_out = data.prepared.settings.hold_out
     if hold_out is None:
-        return made
+        return held_out_together(made)
     return with_hold_out(made, data.prepared, data.rows, hold_out, layout)
 
 
