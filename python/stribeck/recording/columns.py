@@ -81,13 +81,16 @@ def choose_columns(
     """
     _check_given(path, names, maps, units)
     search = _Search(path, names, maps, units, index)
+    mapped = {channel for channel, column in maps.items() if column != "none" or "none" in names}
     for channel in (name for name in CHANNELS if name in wanted):
         if channel in maps:
-            if maps[channel] != "none" or "none" in names:
+            if channel in mapped:
                 search.take(channel, maps[channel], mapped=True)
         elif channel in derived:
             search.take(channel, channel)
-        elif not any(c in maps or c in search.chosen for c in _INSTEAD.get(channel, ())):
+        elif channel == "friction_torque" and "torque" in mapped:
+            continue  # the torque that a user names is the one to fit
+        elif not any(c in mapped or c in search.chosen for c in _INSTEAD.get(channel, ())):
             search.find(channel)
     return search.chosen, search.notes
 

@@ -35,13 +35,22 @@ def measured_torque(data: Channels) -> tuple[Floats, Floats | None]:
         return data.values["torque"], data.values.get("load_torque")
     friction = data.values["friction_torque"]
     load = data.values.get("load_torque")
-    source = data.prepared.choices["friction_torque"].source
-    data.notes.append(
-        f"friction was measured directly ('{source}'): it is the torque, "
-        + ("and the load torque is zero" if load is None else "and the load is no part of it")
-    )
+    data.notes.append(_of_friction(data, load))
     data.columns["torque"] = replace(data.columns["friction_torque"], name="torque")
     return friction, np.zeros_like(friction) if load is None else load
+
+
+def _of_friction(data: Channels, load: Floats | None) -> str:
+    """What a reader has to know of friction that is read in place of the torque."""
+    choices = data.prepared.choices
+    source, torque = choices["friction_torque"].source, choices.get("torque")
+    loaded = "and the load torque is zero" if load is None else "and the load is no part of it"
+    if torque is None:
+        return f"friction was measured directly ('{source}'): it is the torque, {loaded}"
+    return (
+        f"the friction '{source}' is read in place of the torque '{torque.source}', {loaded}: to "
+        f"fit the torque give {option('map', f'torque={torque.source}')}"
+    )
 
 
 def rigid_body_load(
