@@ -289,7 +289,7 @@ def causes_text(found: Sequence[Found]) -> str:
 
 def added_rows(found: RobotImprovement) -> list[list[str]]:
     """The effects added to each joint; the heading first."""
-    rows = [["joint", "added", "held-out RMSE", "unit", "relative"]]
+    rows = [["joint", "added", "held-out RMSE", "unit", "relative", "confidence"]]
     for name, steps in found.steps.items():
         for step in steps:
             before, after = step.before, step.after
@@ -299,7 +299,8 @@ def added_rows(found: RobotImprovement) -> list[list[str]]:
                 f"{percent(after.relative_residual_held_out)}"
             )
             unit = after.model.torque_unit
-            rows.append([name, step.finding.effect, rmse, unit, relative])
+            sure = confidence_text(step.finding.confidence)
+            rows.append([name, step.finding.effect, rmse, unit, relative, sure])
     return rows
 
 

@@ -35,6 +35,9 @@ SIGNIFICANCE = 0.01
 #: Turns of a motor with another joint that are tried, and the least fall of what is left of its
 #: torque, as a share, by friction at that velocity.
 TURNS, LEAST_SEEN = (-1.0, -0.5, 0.5, 1.0), 0.1
+#: Share of the fall that must lie in the joints whose torque a cause changes. Elsewhere the errors
+#: fall where base parameters that it frees take the place of something else.
+OWN = 0.5
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,8 @@ class Found:
         Weighted held-out error of all joints: 1 is the error of the fit without the cause.
     joints
         Those whose held-out error falls most, with the fall as a share.
+    own
+        Share of the fall that lies in the joints whose torque the cause changes.
     """
 
     cause: Cause
@@ -56,6 +61,7 @@ class Found:
     before: float
     after: float
     joints: tuple[tuple[str, float], ...]
+    own: float
     solved: Solved
 
     def to_dict(self) -> dict[str, object]:
@@ -118,14 +124,17 @@ def rigid_causes(solved: Solved, parameters: Array, least_fall: float) -> list[F
     """The causes that pass the test, best first.
 
     A cause passes if the held-out error of all joints, weighted by their noise, falls by at least
-    `least_fall`, and its fall from cell to cell is significant.
+    `least_fall`, most of that in the joints whose torque it changes, and significantly from cell to
+    cell.
     """
     offered = list(possible(solved, parameters))
     found = [_tried(solved, cause, len(offered)) for cause in offered]
     passed = [
         one
         for one in found
-        if one.after <= (1.0 - least_fall) * one.before and one.confidence >= 1.0 - SIGNIFICANCE
+        if one.after <= (1.0 - least_fall) * one.before
+        and one.own >= OWN
+        and one.confidence >= 1.0 - SIGNIFICANCE
     ]
     return sorted(passed, key=lambda one: one.after)
 
@@ -146,12 +155,15 @@ def _tried(solved: Solved, cause: Cause, tried: int) -> Found:
         key=lambda pair: -pair[1],
     )
     rows = float(balance.motion.scored.sum())
+    fall = np.sum(weights * (scores[0].cells - scores[1].cells), axis=1)
+    acts = np.any(cause.columns != 0.0, axis=(0, 2))
     return Found(
         cause,
         1.0 - min(1.0, tried * chance(sums[0], sums[1])),
         float(np.sqrt(sums[0].sum() / rows)),
         float(np.sqrt(sums[1].sum() / rows)),
         tuple((name, float(fall)) for name, fall in falls[:3]),
+        float(fall[acts].sum() / total) if (total := float(fall.sum())) > 0.0 else 0.0,
         after,
     )
 

@@ -11,8 +11,10 @@ import numpy as np
 from stribeck.base.errors import FitError, joint_called
 from stribeck.base.pool import serial_linear_algebra
 from stribeck.base.shown import Shown
-from stribeck.diagnosis.diagnose import diagnose, with_visibility
+from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.least_fall import LEAST_FALL
+from stribeck.diagnosis.plausibility.rules import DEMOTED
+from stribeck.diagnosis.plausibility.shape import shape_at_end
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.fitting.fit import fit
 from stribeck.robot.causes import Found, chance, rigid_causes
@@ -252,10 +254,7 @@ class _Search:
         recording = balance.motion.with_load(joint, load)
         model = balance.models[joint].with_values(self.solved.values.friction[joint])
         alone = fit(model, recording, starts=1, seed=self.seed)
-        found = diagnose(
-            alone, least_fall=self.least_fall, seed=self.seed, brief=True, rejected=ABSORBED
-        )
-        return found if found.findings else with_visibility(found)
+        return diagnose(alone, least_fall=self.least_fall, seed=self.seed, rejected=ABSORBED)
 
     def _added(self, joint: int) -> bool:
         """Add the best finding that holds with the whole robot, if there is one."""
@@ -275,7 +274,7 @@ class _Search:
                 if after.rmse_held_out >= before.rmse_held_out:
                     continue
                 scores = Scores.of(trial, raw=False)
-                self.steps[name].append(RobotStep(finding, before, after))
+                self.steps[name].append(RobotStep(_with_end(finding, after), before, after))
                 self.solved, self.scores = trial, scores
                 self.progress(f"{joint_called(name)}: added {finding.effect}")
                 return True
@@ -302,3 +301,10 @@ class _Search:
         return bool(
             falls and whole and chance(before.cells[joint], scores.cells[joint]) < SIGNIFICANCE
         )
+
+
+def _with_end(finding: Finding, joint: JointFit) -> Finding:
+    """A finding, as likely as not where its shape ends at a bound with all joints identified."""
+    if not shape_at_end(finding.effect, joint.estimates):
+        return finding
+    return replace(finding, weight=min(finding.weight, DEMOTED))

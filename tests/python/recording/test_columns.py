@@ -257,7 +257,7 @@ def test_load_torque(write, frame):
     assert any("friction was measured directly" in note for note in direct.notes)
     computed = write(frame.drop("load_torque").with_columns(friction_torque=frame["torque"] - 1.0))
     (note,) = [note for note in read(computed).notes if "in place of the torque" in note]
-    assert "to fit the torque give `map=\"torque=torque\"`" in note
+    assert 'to fit the torque give `map="torque=torque"`' in note
     for maps in ({"torque": "torque"}, {"friction_torque": "none"}):
         measured = read(computed, map=maps)
         np.testing.assert_array_equal(measured.torque, frame["torque"].to_numpy())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from stribeck.base.errors import StribeckError
@@ -12,6 +14,7 @@ from stribeck.effect.describe import acts_in_shocks
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
 from stribeck.identify.effort import QUICK
+from stribeck.identify.estimates import Estimate
 from stribeck.identify.scaling import bounds
 from stribeck.models.catalog import effect_row
 
@@ -72,15 +75,20 @@ def shape_at_bound(claim: Claim) -> str | None:
     return None
 
 
+def shape_at_end(effect: str, estimates: Mapping[str, Estimate]) -> list[str]:
+    """The shape parameters of an effect that end at a bound other than 0."""
+    row = effect_row(effect)
+    names = [] if row is None else [p["name"] for p in row["parameters"][1:]]
+    ends = [estimates[name] for name in names if name in estimates]
+    return [end.name for end in ends if end.at_bound and end.value != 0.0]
+
+
 def usual_shape(effect: str, after: Fit) -> dict[str, float]:
     """The shape parameters of an effect that end at a bound, with their usual values.
 
     One at 0 switches a part of the effect off.
     """
-    row = effect_row(effect)
-    names = [] if row is None else [p["name"] for p in row["parameters"][1:]]
-    ends = [name for name in names if name in after.estimates and after.estimates[name].at_bound]
-    ends = [name for name in ends if after.model.value(name) != 0.0]
+    ends = shape_at_end(effect, after.estimates)
     if not ends:
         return {}
     usual = dict(zip(after.model.names, bounds(after.model, after.recording)[2], strict=True))

@@ -72,7 +72,8 @@ def _with_load(data: Channels) -> dict[str, Floats]:
     same = np.all([np.diff(v) == 0.0 for v in measured.values()], axis=0)
     holds = np.diff(load)[same] == 0.0
     # One that changes while the others hold is read faster than they are.
-    return {**measured, "load_torque": load} if holds.mean() > _MOSTLY else measured
+    is_held = np.count_nonzero(holds) > _MOSTLY * holds.size
+    return {**measured, "load_torque": load} if is_held else measured
 
 
 def _not_complete(same: Bools, length: Ints, moved: Bools) -> Bools:
