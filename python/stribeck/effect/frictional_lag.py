@@ -28,8 +28,8 @@ FEWEST, SLOW_PASS = 5, 2.0
 PART = 0.25
 #: A lag beyond this share of a typical move is none: friction would belong to another move.
 LONGEST = 0.1
-#: A lag below this part of a sample is none: it is less than interpolation errs.
-LEAST_PART = 0.1
+#: A lag below this part of a sample is none: the channels of a row are not sampled at one instant.
+LEAST_PART = 0.25
 #: A low-pass averages a derived velocity over this part of a period of its cut-off to each side.
 QUARTER = 0.25
 
@@ -136,7 +136,7 @@ def _within_a_sample(after: Identified) -> bool:
 def _unresolved(after: Identified) -> str | None:
     lag, r = after.model.value("frictional_lag"), after.recording
     if lag < LEAST_PART * r.scales()["sample_period"]:
-        return f"friction would lag by {number(1e3 * lag)} ms, less than a tenth of a sample"
+        return f"friction would lag by {number(1e3 * lag)} ms, less than a quarter of a sample"
     if r.columns["velocity"].derived and r.cutoff_hz is not None and lag < QUARTER / r.cutoff_hz:
         return (
             f"friction would lag by {number(1e3 * lag)} ms, less than the time over which the "

@@ -167,7 +167,7 @@ def test_a_lag_beyond_a_move_or_far_below_a_sample(stribeck_curve: Claim) -> Non
     long = out_of_reach(with_values(claim, frictional_lag=1.8))
     assert long is not None and "typical move" in long
     short = unresolved(with_values(claim, frictional_lag=1e-4))
-    assert short is not None and "less than a tenth of a sample" in short
+    assert short is not None and "less than a quarter of a sample" in short
     r = claim.after.recording
     derived = replace(r.columns["velocity"], derived=True)
     filtered = replace(r, cutoff_hz=5.0, columns={**r.columns, "velocity": derived})
