@@ -27,6 +27,8 @@ from stribeck.recording.recording import Recording
 FEWEST_PASSES = 2.5
 #: Parameters, one for each half wave along the stroke.
 WAVES = 8
+#: Share of the stroke to each side of a position in which a motion passes it.
+NEAR = 0.05
 
 
 def stroke_is_not_shown(facts: RecordingFacts) -> Obstacle | None:
@@ -96,7 +98,7 @@ def _where(before: Identified, after: Identified) -> str:
     at = float(q[int(np.argmax(dry))])
     said = (
         f"dry friction varies by {number(float(np.ptp(dry)))} {m.load_unit} along the stroke and "
-        f"is highest at {number(at)} {m.position_unit}, in both directions"
+        f"is highest at {number(at)} {m.position_unit}, {_ways(after, at, NEAR * (high - low))}"
     )
     for_each = _for_each_load(before, after)
     if for_each is None:
@@ -105,6 +107,18 @@ def _where(before: Identified, after: Identified) -> str:
         f"{said}. It follows the load torque along the stroke, {number(for_each)} {m.torque_unit} "
         f"for each {m.load_unit} of it: record the motion with another payload to tell"
     )
+
+
+def _ways(after: Identified, at: float, near: float) -> str:
+    """In which directions the joint moves within `near` of a position."""
+    r = after.recording
+    assert r.position is not None
+    there = np.abs(r.position[after.rows] - at) <= near
+    ways = np.sign(r.velocity[after.rows])[there]
+    forward, backward = bool(np.any(ways > 0.0)), bool(np.any(ways < 0.0))
+    if forward is backward:
+        return "in both directions"
+    return f"where this motion is {'forward' if forward else 'backward'} only"
 
 
 def _for_each_load(before: Identified, after: Identified) -> float | None:

@@ -213,13 +213,19 @@ def parse_names(names: Sequence[str]) -> list[ParsedName]:
 def _without_qualifiers(stem: str) -> tuple[str | None, bool]:
     """A name without the words of `_QUALIFIERS` and `_SECOND`, and whether it had one of these.
 
-    None where it has none of them: ``act_pos_mot_deg`` is ``pos_deg``.
+    None where it has none of them: ``act_pos_mot_deg`` is ``pos_deg``, and so is ``posAct_deg``.
     """
-    words = stem.split("_")
+    words = [part for word in stem.split("_") for part in _parts(word)]
     kept = [word for word in words if word.casefold() not in _QUALIFIERS | _SECOND]
     if len(kept) == len(words) or not kept:
         return None, False
     return "_".join(kept), any(word.casefold() in _SECOND for word in words)
+
+
+def _parts(word: str) -> list[str]:
+    """A word in parts that begin with capitals, if one of them qualifies: not ``mNm``."""
+    parts = re.split(r"(?<=[a-z])(?=[A-Z])", word)
+    return parts if any(p.casefold() in _QUALIFIERS | _SECOND for p in parts) else [word]
 
 
 def _stems(name: str) -> list[tuple[str, str | None]]:

@@ -7,6 +7,8 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.effect.base import Identified
@@ -115,3 +117,21 @@ def test_a_ripple_whose_second_harmonic_dominates_has_that_period(
         ),
     )
     assert f"repeats every {period} " in where("ripple", after, after)
+
+
+@pytest.mark.parametrize(
+    ("turned", "said"), [(True, "in both directions"), (False, "forward only")]
+)
+def test_friction_along_the_stroke_says_which_directions_pass(
+    tmp_path: Path, turned: bool, said: str
+) -> None:
+    """The friction is highest near 1.2 rad, which the joint passes forward, or to and fro."""
+    t = np.arange(0.0, 60.0, 0.01)
+    q = 2.0 * np.sin(0.6 * t)
+    v = np.gradient(q, t)
+    dry = 1.0 + 0.5 * np.exp(-(((q - 1.2) / 0.3) ** 2))
+    frame = pl.DataFrame({"time": t, "position": q, "velocity": v, "torque": np.sign(v) * dry})
+    if not turned:
+        frame = frame.filter(~((pl.col("velocity") < 0.0) & (pl.col("position") > 0.9)))
+    fitted = sb.fit("coulomb+position", sb.read(frame), starts=1)
+    assert said in where("position", fitted, fitted)
