@@ -82,7 +82,7 @@ _ALIASES: dict[str, str] = {
     "motor_velocity": "motorvelocity motorspeed motorvel velocitymotor velmotor",
     "torque": (
         "torque tau effort efforts force motortorque taum tm jointtorque jointeffort "
-        "taumeas actualtorque motorforce"
+        "taumeas actualtorque motorforce tor trq torq"
     ),
     "current": "current cur curr i motorcurrent iq actualcurrent jointcurrent",
     "load_torque": "loadtorque tl tauload load tload loadforce",

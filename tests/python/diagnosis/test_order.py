@@ -50,6 +50,10 @@ class Tried:
     rank: float = -1.0
     evidence: Evident = Evident()
 
+    def only_delays(self, effect: str) -> bool:
+        """No trial here lags."""
+        return False
+
 
 @dataclass(frozen=True)
 class Apart:

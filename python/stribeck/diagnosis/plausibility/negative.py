@@ -1,4 +1,4 @@
-"""Rule: dry friction and inertia are not negative."""
+"""Rules: dry friction, friction under load and inertia are not negative."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from stribeck.base import linear
 from stribeck.base.errors import StribeckError
-from stribeck.diagnosis.plausibility.claim import Array, Claim
+from stribeck.diagnosis.plausibility.claim import Array, Claim, term_torque
 from stribeck.effect.base import number
 from stribeck.fitting.result import Fit
+from stribeck.identify.figures import rms
 from stribeck.models.model import Model
 from stribeck.models.parts import friction_parts
 
@@ -18,6 +19,8 @@ BEYOND = 1.96
 #: Share of the samples in which dry friction may be negative, and its size there as a share of the
 #: largest: the shape of an effect by a few waves or powers is not exact.
 SHARE, SIZE = 0.01, 0.05
+#: Part of the friction under load, as RMS, that may be negative in one quadrant.
+DRIVING = 0.1
 #: Samples on which dry friction is looked at.
 ROWS = 2000
 
@@ -59,6 +62,23 @@ def _error(fit: Fit, rows: NDArray[np.intp], dry: Array) -> Array:
         columns.append((moved - dry) / step if step > 0.0 else np.zeros_like(dry))
     slope = np.column_stack(columns) if columns else np.zeros((dry.size, 0))
     return np.sqrt(np.maximum(np.sum((slope @ covariance) * slope, axis=1), 0.0))
+
+
+def negative_under_load(claim: Claim) -> str | None:
+    """Why friction under load is negative in one quadrant; None where it is not.
+
+    The difference of the quadrants is then more than their mean: the load torque on another scale.
+    """
+    fit, quadrant = claim.after, claim.torque
+    if claim.effect != "quadrant" or quadrant is None:
+        return None
+    load = term_torque(fit, "load")
+    if load is None:
+        return None
+    friction = (load + quadrant) * np.sign(fit.recording.velocity[fit.rows])
+    if rms(np.minimum(friction, 0.0)) <= DRIVING * rms(friction):
+        return None
+    return "friction under load would drive the joint in one quadrant, as a load on a wrong scale"
 
 
 def negative_inertia(claim: Claim) -> str | None:

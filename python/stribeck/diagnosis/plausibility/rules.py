@@ -13,7 +13,11 @@ from dataclasses import dataclass, replace
 from stribeck.diagnosis.plausibility.cancelling import cancelling
 from stribeck.diagnosis.plausibility.claim import Claim, first_reason
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
-from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
+from stribeck.diagnosis.plausibility.negative import (
+    negative_friction,
+    negative_inertia,
+    negative_under_load,
+)
 from stribeck.diagnosis.plausibility.noise_of_load import noise_of_load
 from stribeck.diagnosis.plausibility.other_part import other_part_changes
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
@@ -32,6 +36,7 @@ IMPOSSIBLE: tuple[Rule, ...] = (
     cancelling,
     negative_friction,
     negative_inertia,
+    negative_under_load,
     unresolved,
     out_of_reach,
     other_part_changes,

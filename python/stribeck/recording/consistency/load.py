@@ -31,7 +31,9 @@ def check_load(view: View) -> Check | None:
     recorded = view.recorded("load_torque") is not None and recording.torque_holds_load
     if not recorded:
         return None
-    load = None if view.dissipation is None else view.dissipation.load
+    if view.dissipation is None:
+        return Check("load_torque", True, "cannot check the load torque: too few samples move")
+    load = view.dissipation.load
     if load is None:
         return Check("load_torque", True, "cannot check the load torque: it hardly varies")
     low, high = load.interval
@@ -40,7 +42,7 @@ def check_load(view: View) -> Check | None:
         return Check("load_torque", True, "cannot check the load torque: noise hides it")
     if high < 0.0 and low < -1.0 / _SCALE and high > -_SCALE:
         said = f"the torque holds the load torque ('{column}') with the opposite sign"
-        friction = view.dissipation.friction if view.dissipation is not None else None
+        friction = view.dissipation.friction
         wrong = "torque" if friction is not None and friction.sign < 0 else "load_torque"
         return Check("load_torque", False, said, f"give {view.derived(wrong, '-{}')}")
     if high < 1.0 / _SCALE or low > _SCALE:

@@ -14,7 +14,11 @@ from stribeck.diagnosis.plausibility.cancelling import cancelling
 from stribeck.diagnosis.plausibility.carried import Carried, move_of
 from stribeck.diagnosis.plausibility.claim import Claim, term_torques
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
-from stribeck.diagnosis.plausibility.negative import negative_friction, negative_inertia
+from stribeck.diagnosis.plausibility.negative import (
+    negative_friction,
+    negative_inertia,
+    negative_under_load,
+)
 from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, weak
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.steady import steady
@@ -144,6 +148,21 @@ def test_inertia_below_zero(tmp_path: Path) -> None:
     assert negative_inertia(claim) is None
     reason = negative_inertia(made(tmp_path, -0.8 * a, "inertia", "less"))
     assert reason is not None and "inertia would be negative" in reason
+
+
+@pytest.mark.parametrize(
+    ("per_load", "uneven", "is_negative"), [(0.1, 0.6, False), (0.01, 5.0, True)]
+)
+def test_friction_under_load_is_positive_in_each_quadrant(
+    tmp_path: Path, per_load: float, uneven: float, is_negative: bool
+) -> None:
+    """A difference of the quadrants larger than their mean is a load on another scale."""
+    _, _, v, _ = motion()
+    load = joint(0.0)["load_torque"].to_numpy()
+    extra = per_load * np.abs(load) * np.sign(v) * (1.0 + uneven * np.sign(v * load))
+    reason = negative_under_load(made(tmp_path, extra, "quadrant"))
+    assert (reason is not None) is is_negative
+    assert reason is None or "in one quadrant" in reason
 
 
 def test_a_stribeck_curve_that_never_ends_or_never_begins(stribeck_curve: Claim) -> None:
