@@ -317,9 +317,21 @@ def robot_improvement_text(found: RobotImprovement) -> str:
         f"Improving {found.base.solved.balance.base.robot.name}",
         added,
         "\n".join(where),
+        found_alone(found),
         causes_text(found.rigid_body),
         robot_fit_text(found.final),
     )
+
+
+def found_alone(found: RobotImprovement) -> str:
+    """Effects that the last diagnosis of a joint finds, and that were not added."""
+    left = [
+        f"{joint_called(name)}: {listed([finding.effect for finding in joint.findings], 'or')}"
+        for name, joint in found.last.items()
+        if joint.findings
+    ]
+    heading = "Found on the joint alone, and not added, as it must hold with all joints:"
+    return bullets(heading, left) if left else ""
 
 
 def robot_plan_text(plan: RobotPlan) -> str:

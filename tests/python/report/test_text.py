@@ -27,8 +27,9 @@ from stribeck.report import (
 from stribeck.report.certificate import certificate_text
 from stribeck.report.diagnosis import nothing_found, visible_heading
 from stribeck.report.numbers import confidence_words, listed, percent, plain, with_error
-from stribeck.report.robot import bodies_sentence
+from stribeck.report.robot import bodies_sentence, found_alone
 from stribeck.report.unexplained import left_text
+from stribeck.robot.improve import RobotImprovement
 from stribeck.robot.result import RobotFit
 from synthetic import joint, record
 
@@ -231,3 +232,11 @@ def test_a_robot_whose_torque_is_not_explained_says_nothing_of_its_links() -> No
     said = bodies_sentence(fitted(1.1, 0.2, 0.95))
     assert "hardly any of the torque of Joint1 and Joint3" in said and "than 31.6 Hz" in said
     assert bodies_sentence(fitted(0.5, 0.2, 0.1)).startswith("Bodies of positive mass density")
+
+
+def test_what_a_joint_alone_shows_is_listed_when_it_was_not_added() -> None:
+    several = tuple(SimpleNamespace(effect=effect) for effect in ("delay", "ripple"))
+    joints = {"a": SimpleNamespace(findings=several), "b": SimpleNamespace(findings=())}
+    said = found_alone(cast(RobotImprovement, SimpleNamespace(last=joints)))
+    assert "not added" in said and said.endswith("joint a: delay or ripple")
+    assert found_alone(cast(RobotImprovement, SimpleNamespace(last={}))) == ""
