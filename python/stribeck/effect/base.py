@@ -161,8 +161,8 @@ def _nothing(*_: object) -> None:
     return None
 
 
-def _no(_: Identified) -> bool:
-    return False
+def _many(_: Identified) -> float:
+    return np.inf
 
 
 def _no_constants(*_: object) -> dict[str, float]:
@@ -229,9 +229,10 @@ class Effect:
     unresolved
         Why the effect acts within what the recording resolves, as a clause: a distance between two
         samples, a lag of a small part of one; None where it does not.
-    within_a_sample
-        Whether it acts over less than a sample. A small error in the timing of a channel looks like
-        that, so it must predict better than all causes in the measurement, and is never certain.
+    samples_late
+        By how many samples it delays friction. A late channel looks like a few samples, so that the
+        effect must then predict better than all causes in the measurement; below one sample it is
+        never certain.
     out_of_reach
         Why it acts beyond what the recording reaches, as a clause: a time constant longer than a
         move, a speed above the highest; None where it does not.
@@ -278,7 +279,7 @@ class Effect:
     size_range: tuple[float, float] | None = None
     forms: Callable[[Recording], int] = _one_form
     unresolved: Callable[[Identified], str | None] = _nothing
-    within_a_sample: Callable[[Identified], bool] = _no
+    samples_late: Callable[[Identified], float] = _many
     out_of_reach: Callable[[Identified], str | None] = _nothing
     absorbed: Callable[[Model, Recording], Obstacle | None] = _nothing
     alike: Callable[[Identified, Identified], tuple[str, ...]] = _no_names

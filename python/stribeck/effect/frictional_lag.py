@@ -83,7 +83,7 @@ def _where(before: Identified, after: Identified) -> str:
         f"the decrease of friction with speed is delayed by {number(1e3 * lag)} ms: at the same "
         "low speed friction is higher while the joint speeds up than while it slows down"
     )
-    if not _within_a_sample(after):
+    if _samples_late(after) >= 1.0:
         return said
     period = 1e3 * after.recording.scales()["sample_period"]
     return f"{said}; that is less than the {number(period)} ms between samples: record faster"
@@ -125,12 +125,12 @@ def _out_of_reach(after: Identified) -> str | None:
     )
 
 
-def _within_a_sample(after: Identified) -> bool:
+def _samples_late(after: Identified) -> float:
     # A delay before zero brings the curve forward: what is left of the lag counts.
     model = after.model
     forward = min(model.value("delay"), 0.0) if model.has("delay") else 0.0
     lag = model.value("frictional_lag") + forward
-    return lag < after.recording.scales()["sample_period"]
+    return lag / after.recording.scales()["sample_period"]
 
 
 def _unresolved(after: Identified) -> str | None:
@@ -156,7 +156,7 @@ EFFECT = Effect(
     free_form=OF_SPEED,
     size_range=(10.0, 1e-2),
     unresolved=_unresolved,
-    within_a_sample=_within_a_sample,
+    samples_late=_samples_late,
     out_of_reach=_out_of_reach,
     cannot_hide=_without_curve,
 )

@@ -18,6 +18,7 @@ import numpy as np
 
 from stribeck.base.pool import on_each
 from stribeck.diagnosis.least_fall import reduced
+from stribeck.diagnosis.measurement.late_channels import REACH
 from stribeck.diagnosis.measurement.other_acceleration import OTHER_ACCELERATION
 from stribeck.diagnosis.measurement.table import (
     imitating,
@@ -146,7 +147,7 @@ def without_imitations(
         them, what it adds to that must stand too.
     """
     for trial in sift.stand:
-        if trial.is_within_a_sample:
+        if trial.samples_late < 1.0:
             sift = sift.narrowed(trial, DEMOTED)
     suspects = [t for t in sift.stand if is_friction(t.effect) or imitating(t.effect)]
     columns = measurement_columns(before) if suspects else {}
@@ -178,10 +179,10 @@ def without_imitations(
         apart = min(r.advantage(trial) for r in (rivals, addition) if r is not None)
         if apart > SIMPLEST:
             continue
-        if trial.is_within_a_sample:
-            # A small error in the timing of a channel looks like that.
+        if trial.samples_late <= REACH:
             largest = (rivals if addition is None else addition).largest
-            row = Doubted(trial, f"it acts within a sample, and {largest} explains it as well")
+            reason = f"it delays friction by a few samples, and {largest} explains that as well"
+            row = Doubted(trial, reason)
             sift = sift.instead(trial, Sifted(demoted=(row,)))
         else:
             sift = sift.narrowed(trial, NARROW)

@@ -91,14 +91,14 @@ class Trial:
         return self.size is not None and self.size.at_bound
 
     @property
-    def is_within_a_sample(self) -> bool:
-        """Whether the effect acts over less than a sample."""
+    def samples_late(self) -> float:
+        """By how many samples the effect delays friction; infinite where it does not."""
         known = find(self.effect)
-        return known is not None and known.within_a_sample(self.fit)
+        return np.inf if known is None else known.samples_late(self.fit)
 
     def only_delays(self, effect: str) -> bool:
         """Whether it is another effect that lags by less than a sample."""
-        return self.is_within_a_sample and simpler_effect(self.effect) == effect
+        return self.samples_late < 1.0 and simpler_effect(self.effect) == effect
 
     @property
     def bound_reason(self) -> str:
