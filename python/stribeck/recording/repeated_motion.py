@@ -28,7 +28,8 @@ def held_out_together(recording: Recording) -> Recording:
 
     As it is where its blocks are not runs, or hold fewer than five motions.
     """
-    if recording.averaged or all(check.check != "others" for check in recording.checks):
+    others_move = any(check.check == "others" for check in recording.checks)
+    if recording.averaged or not others_move or len(recording.run_names) <= MANY_RUNS:
         return recording
     position = recording.velocity if recording.position is None else recording.position
     block, count = _of_motions(recording.block, position)
@@ -46,7 +47,7 @@ def _of_motions(block: Ints, position: Floats) -> tuple[Ints, int]:
     """Held-out blocks of whole motions, [n], from those of runs, and their number."""
     count = int(block.max()) + 1
     borders = np.flatnonzero(np.diff(block, prepend=-1, append=count))
-    if borders.size != count + 1 or count <= MANY_RUNS:
+    if borders.size != count + 1:
         return block, count
     first = _first_alike([position[a:b] for a, b in itertools.pairwise(borders)])
     motions = np.unique(first)

@@ -53,3 +53,9 @@ def test_several_files_are_treated_alike():
     frame = log(MOTIONS)
     files = [frame.filter(pl.col("run") == k).drop("run") for k in range(len(MOTIONS))]
     assert sb.read(files, joint="1").block_count == 5
+
+
+def test_the_tenths_of_one_run_stay(write):
+    """Five motions, twice one after the other in one run: its tenths are no runs."""
+    frame = log(MOTIONS[:5] * 2).with_columns(time=pl.int_range(pl.len()) / 50.0)
+    assert sb.read(write(frame.drop("run")), joint="1").block_count == 10
