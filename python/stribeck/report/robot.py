@@ -330,7 +330,7 @@ def found_alone(found: RobotImprovement) -> str:
         for name, joint in found.last.items()
         if joint.findings
     ]
-    heading = "Found on the joint alone, and not added, as it must hold with all joints:"
+    heading = "Shown by the joint alone, and not added:"
     return bullets(heading, left) if left else ""
 
 

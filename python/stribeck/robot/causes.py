@@ -148,14 +148,16 @@ def _tried(solved: Solved, cause: Cause, tried: int) -> Found:
     after = solve(balance, start, solved.weights, QUICK)
     scores = Scores.of(before, raw=False), Scores.of(after, raw=False)
     weights = solved.weights[:, None] ** 2
-    sums = [np.sum(weights * one.cells, axis=0) for one in scores]
+    squares = [weights * one.cells for one in scores]
+    sums = [np.sum(one, axis=0) for one in squares]
     left = [one.filtered_held_out for one in scores]
     falls = sorted(
         zip(balance.motion.robot.names, 1.0 - left[1] / left[0], strict=True),
         key=lambda pair: -pair[1],
     )
     rows = float(balance.motion.scored.sum())
-    fall = np.sum(weights * (scores[0].cells - scores[1].cells), axis=1)
+    by_joint = np.sum(squares[0] - squares[1], axis=1)
+    total = float(by_joint.sum())
     acts = np.any(cause.columns != 0.0, axis=(0, 2))
     return Found(
         cause,
@@ -163,7 +165,7 @@ def _tried(solved: Solved, cause: Cause, tried: int) -> Found:
         float(np.sqrt(sums[0].sum() / rows)),
         float(np.sqrt(sums[1].sum() / rows)),
         tuple((name, float(fall)) for name, fall in falls[:3]),
-        float(fall[acts].sum() / total) if (total := float(fall.sum())) > 0.0 else 0.0,
+        float(by_joint[acts].sum()) / total if total > 0.0 else 0.0,
         after,
     )
 

@@ -274,7 +274,9 @@ class _Search:
                 if after.rmse_held_out >= before.rmse_held_out:
                     continue
                 scores = Scores.of(trial, raw=False)
-                self.steps[name].append(RobotStep(_with_end(finding, after), before, after))
+                self.steps[name].append(
+                    RobotStep(_in_doubt_at_bound(finding, after), before, after)
+                )
                 self.solved, self.scores = trial, scores
                 self.progress(f"{joint_called(name)}: added {finding.effect}")
                 return True
@@ -303,7 +305,7 @@ class _Search:
         )
 
 
-def _with_end(finding: Finding, joint: JointFit) -> Finding:
+def _in_doubt_at_bound(finding: Finding, joint: JointFit) -> Finding:
     """A finding, as likely as not where its shape ends at a bound with all joints identified."""
     if not shape_at_end(finding.effect, joint.estimates):
         return finding

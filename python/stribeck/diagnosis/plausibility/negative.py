@@ -78,7 +78,9 @@ def negative_under_load(claim: Claim) -> str | None:
     friction = (load + quadrant) * np.sign(fit.recording.velocity[fit.rows])
     if rms(np.minimum(friction, 0.0)) <= DRIVING * rms(friction):
         return None
-    return "friction under load would drive the joint in one quadrant, as a load on a wrong scale"
+    return (
+        "friction under load would drive the joint in one quadrant, as a load on a wrong scale does"
+    )
 
 
 def negative_inertia(claim: Claim) -> str | None:

@@ -147,7 +147,7 @@ def without_imitations(
         them, what it adds to that must stand too.
     """
     for trial in sift.stand:
-        if trial.samples_late < 1.0:
+        if trial.is_within_a_sample:
             sift = sift.narrowed(trial, DEMOTED)
     suspects = [t for t in sift.stand if is_friction(t.effect) or imitating(t.effect)]
     columns = measurement_columns(before) if suspects else {}

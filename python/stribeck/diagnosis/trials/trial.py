@@ -96,9 +96,14 @@ class Trial:
         known = find(self.effect)
         return np.inf if known is None else known.samples_late(self.fit)
 
+    @property
+    def is_within_a_sample(self) -> bool:
+        """Whether the effect delays friction by less than a sample."""
+        return self.samples_late < 1.0
+
     def only_delays(self, effect: str) -> bool:
         """Whether it is another effect that lags by less than a sample."""
-        return self.samples_late < 1.0 and simpler_effect(self.effect) == effect
+        return self.is_within_a_sample and simpler_effect(self.effect) == effect
 
     @property
     def bound_reason(self) -> str:

@@ -47,12 +47,15 @@ class Held:
         time, position = data.values.get("time"), data.values.get("position")
         if time is None or position is None or not np.any(np.diff(position) == 0.0):
             return cls(held)
-        joints = _of_all_joints(data) or [_with_load(data)]
+        several = _of_all_joints(data)
+        joints = several or [data.measured]
         if any("position" not in one or len(one) < 2 for one in joints):
             return cls(held)
         same = np.all([np.diff(v) == 0.0 for one in joints for v in one.values()], axis=0)
         if not same.any():
             return cls(held)
+        if not several:
+            same = _with_load(same, data)
         moved = np.any([_moved(one, same, np.diff(time)) for one in joints], axis=0)
         held[1:] = same & moved
         if held.sum() <= _MANY * moved.sum():
@@ -64,16 +67,15 @@ class Held:
         return cls(held, always=True)
 
 
-def _with_load(data: Channels) -> dict[str, Floats]:
-    """The measured channels, with a load torque that holds its values as they do."""
-    measured, load = data.measured, data.values.get("load_torque")
-    if load is None or len(measured) < 2:
-        return measured
-    same = np.all([np.diff(v) == 0.0 for v in measured.values()], axis=0)
-    holds = np.diff(load)[same] == 0.0
+def _with_load(same: Bools, data: Channels) -> Bools:
+    """Which rows repeat, [n - 1], with a load torque that holds its values as the others do."""
+    load = data.values.get("load_torque")
+    if load is None:
+        return same
+    holds = np.diff(load) == 0.0
     # One that changes while the others hold is read faster than they are.
-    is_held = np.count_nonzero(holds) > _MOSTLY * holds.size
-    return {**measured, "load_torque": load} if is_held else measured
+    is_held = np.count_nonzero(holds & same) > _MOSTLY * np.count_nonzero(same)
+    return same & holds if is_held else same
 
 
 def _not_complete(same: Bools, length: Ints, moved: Bools) -> Bools:
