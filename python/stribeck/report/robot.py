@@ -330,7 +330,7 @@ def found_alone(found: RobotImprovement) -> str:
         for name, joint in found.last.items()
         if joint.findings
     ]
-    heading = "Shown by the joint alone, and not added:"
+    heading = "Found on the joint alone, and not added:"
     return bullets(heading, left) if left else ""
 
 
