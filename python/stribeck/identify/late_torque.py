@@ -2,7 +2,8 @@
 
 At rest the friction is whatever holds the joint, which no model predicts. A torque that is late
 shows it in the samples after the joint has started, one that is early in those before it stops.
-There every friction model is wrong by up to twice the dry friction.
+There every friction model is wrong by up to twice the dry friction. At a reversal the direction of
+the slow samples is uncertain, and so is the sign of the torque that is theirs.
 """
 
 from __future__ import annotations
@@ -22,19 +23,34 @@ MOST = 0.5
 
 
 def friction_of_rest(recording: Recording) -> Bools:
-    """Moving samples that may show the friction of a rest, bool [n].
+    """Moving samples that may show the friction of a rest or of slow motion, bool [n].
 
     They are within twice the shift of the torque from a rest, or nearer where that would be most
-    samples; none where the torque is in time.
+    samples, or their torque is that of a slow sample; none where the torque is in time.
     """
-    shift = abs(torque_shift(recording))
+    shift = torque_shift(recording)
     if shift == 0:
         return np.zeros(recording.time.size, dtype=bool)
-    reach = 2 * shift + MARGIN
+    reach = 2 * abs(shift) + MARGIN
     most = MOST * np.count_nonzero(recording.moving)
     while np.count_nonzero(found := beside_rest(recording, reach)) > most:
         reach //= 2
-    return found
+    both = found | shows_slow_motion(recording, shift)
+    return both if np.count_nonzero(both) <= most else found
+
+
+def shows_slow_motion(recording: Recording, shift: int) -> Bools:
+    """Moving samples whose torque, `shift` samples late, is that of a slow sample, bool [n].
+
+    The direction of a slow sample is uncertain.
+    """
+    r = recording
+    rows = np.arange(r.time.size)
+    slow = np.zeros(rows.size, dtype=bool)
+    for ago in (shift - 1, shift, shift + 1):
+        at = np.clip(rows - ago, 0, rows.size - 1)
+        slow |= ~r.moving[at] & (r.segment[at] == r.segment)
+    return slow & r.moving
 
 
 def beside_rest(recording: Recording, reach: int) -> Bools:

@@ -20,7 +20,7 @@ def rows_left_out(recording: Recording) -> Bools:
     They are transients, or in doubt because a channel is late.
     """
     doubtful = _in_doubt(recording)
-    return transient_rows(recording, doubtful) | doubtful
+    return transient_rows(recording, doubtful, torque_shift(recording)) | doubtful
 
 
 def transients(recording: Recording, marked: Bools) -> list[tuple[float, float]]:

@@ -6,11 +6,15 @@ are the same for every model.
 
 A drive train, an inertia or a delay causes large errors wherever the joint accelerates hard. The
 error of a stretch is therefore compared with that of the stretches of similar acceleration too.
+
+A flexible model is wrong where the motion goes beyond the rest. A stretch that a model of a few
+columns explains as well as a flexible one explains the others is no transient either.
 """
 
 from __future__ import annotations
 
 import itertools
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +23,7 @@ from stribeck.base import linear
 from stribeck.identify.figures import zero_phase
 from stribeck.identify.normal import NormalEquations
 from stribeck.recording.recording import Recording
+from stribeck.recording.rows import neighbour
 
 Array = NDArray[np.float64]
 
@@ -63,8 +68,23 @@ def flexible_columns(recording: Recording) -> list[Array]:
     return columns
 
 
+def simple_columns(recording: Recording) -> list[Array]:
+    """Columns of an ordinary model: dry and viscous friction, inertia, spring, load; arrays [n]."""
+    v = recording.velocity
+    columns = [np.sign(v), v, np.ones_like(v)]
+    if recording.acceleration is not None:
+        columns.append(recording.acceleration)
+    if recording.position is not None:
+        q = recording.position
+        u = 2.0 * (q - q.min()) / (np.ptp(q) or 1.0) - 1.0
+        columns += [u, u**2, u**3]
+    if recording.load_torque is not None:
+        columns.append(recording.load_torque)
+    return columns
+
+
 def transient_rows(
-    recording: Recording, apart: NDArray[np.bool_] | None = None
+    recording: Recording, apart: NDArray[np.bool_] | None = None, late: int = 0
 ) -> NDArray[np.bool_]:
     """Samples of transients, bool [n]: windows that a flexible model does not fit.
 
@@ -72,29 +92,27 @@ def transient_rows(
     ----------
     apart : bool array [n]
         Samples that are not looked at; default: none.
+    late : int
+        Samples by which the torque lags the motion.
     """
     none = np.zeros(recording.time.size, dtype=bool)
     moving = recording.moving if apart is None else recording.moving & ~apart
     if recording.averaged or moving.sum() < 20 * WINDOWS:
         return none
     columns = of_one_size(flexible_columns(recording), moving)
-    target = recording.torque - recording.known_torque
+    simple = of_one_size(simple_columns(recording), moving)
+    target = neighbour(recording.torque, recording.segment, late) - recording.known_torque
     window = np.minimum(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
     ).astype(np.uint32)
     similar = _similar(_levels(recording.acceleration_smooth, window, moving))
     marked = none
     for _ in range(4):
-        residual = _left_out(columns, target, window, moving, moving & ~marked)
-        slow = zero_phase(recording, residual)
-        outlier = unlike = np.zeros(WINDOWS, dtype=bool)
-        for values, factor in ((slow, OUTLIER_FILTERED), (residual, OUTLIER_RAW)):
-            level = _levels(values, window, moving)
-            # The motion differs between windows: an outlier also exceeds the worst normal ones.
-            normal = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
-            large = level > normal
-            outlier = outlier | large
-            unlike = unlike | (large & (level > factor * np.median(level[similar], axis=1)))
+        kept = moving & ~marked
+        by_flexible, by_simple = (
+            _left_out(part, target, window, moving, kept) for part in (columns, simple)
+        )
+        outlier, unlike = _outliers(recording, by_flexible, by_simple, window, moving, similar)
         again = moving & unlike[window]
         frequent = np.count_nonzero(np.diff(outlier.astype(int), prepend=0) == 1) > STRETCHES
         many = (moving & outlier[window]).sum() > MOST * moving.sum()
@@ -102,6 +120,31 @@ def transient_rows(
             break
         marked = again
     return marked
+
+
+def _outliers(
+    recording: Recording,
+    by_flexible: Array,
+    by_simple: Array,
+    window: NDArray[np.uint32],
+    moving: NDArray[np.bool_],
+    similar: NDArray[np.intp],
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
+    """Windows of large error, and those of them that are transients, bool [WINDOWS] each."""
+    outlier = unlike = np.zeros(WINDOWS, dtype=bool)
+    for shown, factor in (
+        (partial(zero_phase, recording), OUTLIER_FILTERED),
+        (np.copy, OUTLIER_RAW),
+    ):
+        level = _levels(shown(by_flexible), window, moving)
+        # The motion differs between windows: an outlier also exceeds the worst normal ones.
+        normal = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
+        large = level > normal
+        outlier = outlier | large
+        explained = _levels(shown(by_simple), window, moving) <= normal
+        alone = level > factor * np.median(level[similar], axis=1)
+        unlike = unlike | (large & alone & ~explained)
+    return outlier, unlike
 
 
 def _levels(values: Array, window: NDArray[np.uint32], moving: NDArray[np.bool_]) -> Array:

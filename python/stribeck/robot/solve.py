@@ -106,14 +106,16 @@ def solve(
         share = max(joined.fall(step), 0.0) / joined.square
         made = _stepped(made, step, joined.square, effort.halvings)
         before = made.weights
+        fell = joined.square - _weighted_square(made.factors, before, made.every)
         left = np.array([f.square(made.every) for f in made.factors])
         if not np.all(np.isfinite(left)):
             raise FitError(f"{balance.motion.path}: the torques of the robot are not finite")
         weights = 1.0 / np.sqrt(np.maximum(left / count, 1e-30))
         made = Solved(balance, made.values, weights, made.factors, made.converged)
         settled = np.allclose(before, weights, rtol=np.sqrt(effort.tolerance))
-        if share < effort.tolerance and settled:
-            return Solved(balance, made.values, weights, made.factors, True)
+        least = effort.tolerance
+        if settled and min(share, fell / joined.square) < least:
+            return replace(made, converged=share < least)
     return made
 
 

@@ -76,6 +76,25 @@ def test_a_note_counts_the_samples_left_out(recording: sb.Recording) -> None:
     assert found.to_dict()["transients"] == []
 
 
+def test_the_torque_of_slow_samples_is_in_doubt() -> None:
+    """At a reversal they are few; those between the two changes of sign show the delay."""
+    t = np.arange(0.0, 40.0, 0.005)
+    v = np.sin(1.3 * t) + 0.4 * np.sin(14.0 * t) + 0.2 * np.sin(37.0 * t)
+    late = 3
+    torque = np.roll(2.0 * np.sign(v) + v, late)
+    v = v + 0.004 * np.random.default_rng(5).standard_normal(t.size)
+    r = sb.Recording.from_columns(time=t, velocity=v, torque=torque)
+    assert torque_shift(r) == late
+    left_out = friction_of_rest(r)
+    slow = ~r.moving
+    shown = np.zeros(t.size, dtype=bool)
+    for ahead in (late - 1, late, late + 1):
+        shown[np.flatnonzero(slow[:-ahead]) + ahead] = True
+    assert np.array_equal(left_out, shown & r.moving)
+    wrong = r.moving & ~left_out & (np.sign(torque) != np.sign(v))
+    assert wrong.sum() > 20
+
+
 @pytest.mark.slow
 def test_nothing_else_is_named(recording: sb.Recording) -> None:
     found = sb.improve("coulomb", recording)

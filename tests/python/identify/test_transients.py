@@ -157,6 +157,27 @@ def test_a_hard_acceleration_is_no_transient(tmp_path: Path) -> None:
     assert not transient_rows(record(tmp_path, moved, "moved")).any()
 
 
+def far_once(extra: float) -> sb.Recording:
+    """A joint on a spring that moves ten times as far as usual once, under `extra` N m there."""
+    t = np.arange(0.0, 60.0, 0.005)
+    far = np.exp(-(((t - 31.0) / 1.2) ** 2))
+    q = 0.2 * np.sin(2.1 * t) + 0.05 * np.sin(5.3 * t) + 2.0 * far
+    v = np.gradient(q, t)
+    torque = (
+        0.5 * np.sign(v) + 0.2 * v + 0.4 * q + 0.3 * q**2 + extra * np.where(far > 0.3, 1.0, 0.0)
+    )
+    noise = 0.01 * np.random.default_rng(3).standard_normal(t.size)
+    return sb.Recording.from_columns(time=t, position=q, velocity=v, torque=torque + noise)
+
+
+def test_where_a_simple_model_holds_is_no_transient() -> None:
+    """The flexible model is wrong beyond the usual stroke; the spring of the joint is not."""
+    assert not transient_rows(far_once(0.0)).any()
+    recording = far_once(3.0)
+    marked = transient_rows(recording)
+    assert marked[(np.abs(recording.time - 31.0) < 1.0) & recording.moving].all()
+
+
 def test_a_stretch_ends_with_its_run(plain: sb.Recording) -> None:
     """The time of the next run may begin anywhere."""
     half = plain.rows // 2
