@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from stribeck.identify.torque_shift import torque_shift
 from stribeck.recording.recording import Recording
+from stribeck.recording.rows import neighbour
 
 Bools = NDArray[np.bool_]
 
@@ -44,13 +45,12 @@ def shows_slow_motion(recording: Recording, shift: int) -> Bools:
 
     The direction of a slow sample is uncertain.
     """
-    r = recording
-    rows = np.arange(r.time.size)
-    slow = np.zeros(rows.size, dtype=bool)
-    for ago in (shift - 1, shift, shift + 1):
-        at = np.clip(rows - ago, 0, rows.size - 1)
-        slow |= ~r.moving[at] & (r.segment[at] == r.segment)
-    return slow & r.moving
+    moving = recording.moving
+    shown = (
+        neighbour(moving.astype(np.float64), recording.segment, -ago)
+        for ago in (shift - 1, shift, shift + 1)
+    )
+    return moving & (np.min(list(shown), axis=0) == 0.0)
 
 
 def beside_rest(recording: Recording, reach: int) -> Bools:

@@ -90,7 +90,8 @@ def test_the_torque_of_slow_samples_is_in_doubt() -> None:
     shown = np.zeros(t.size, dtype=bool)
     for ahead in (late - 1, late, late + 1):
         shown[np.flatnonzero(slow[:-ahead]) + ahead] = True
-    assert np.array_equal(left_out, shown & r.moving)
+    inside = slice(late + 1, None)
+    assert np.array_equal(left_out[inside], (shown & r.moving)[inside])
     wrong = r.moving & ~left_out & (np.sign(torque) != np.sign(v))
     assert wrong.sum() > 20
 
