@@ -185,9 +185,10 @@ def inspect(path: Given, **reading: Unpack[ReadArguments]) -> Inspection:
     joint = options.joint
     # What cannot be fitted is inspected all the same.
     needs_motion = not options.standstill
-    options = replace(options, trust=True, standstill=True)
+    options = replace(options, standstill=True)
     names: list[str | None] = [joint] if joint is not None else [*table.joints] or [None]
-    recordings = tuple(read_with(path, replace(options, joint=name)) for name in names)
+    made = (read_with(path, replace(options, joint=name)) for name in names)
+    recordings = tuple(replace(recording, trusted=True) for recording in made)
     proposed = _proposed(table, recordings, joint)
     still = [r for r in recordings if needs_motion and not r.moving.any()]
     if still:

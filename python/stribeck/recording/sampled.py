@@ -71,7 +71,6 @@ def _motion(
     acceleration = data.values.get("acceleration")
     sigma = None if velocity is None else noise_level(time, velocity, segment)
     if velocity is not None and _is_replaced(data, segment, typical, SIGMAS * float(sigma or 0.0)):
-        # Scored are the samples that the recorded velocity shows moving.
         velocity = acceleration = None
     if velocity is not None:
         cutoff = choose_cutoff(time, velocity, segment, 1)
@@ -82,9 +81,13 @@ def _motion(
     else:
         assert position is not None
         step = typical if typical > 0.0 else float(np.median(np.diff(time)))
-        sigma = slope_noise(time, position, segment, step) if sigma is None else sigma
         velocity, cutoff = slope(time, position, segment)
         left = filtered_noise(noise_level(time, position, segment), step, cutoff)
+        if sigma is None:
+            sigma = slope_noise(time, position, segment, step)
+        else:
+            # Scored are the samples that both velocities show moving.
+            sigma = max(sigma, left or 0.0)
         velocity_smooth = velocity
         smoother = Smoother(time, segment, cutoff)
         origin, source, derivative = "position", position, 2

@@ -42,6 +42,18 @@ def test_the_samples_that_move_are_those_of_the_recorded_velocity(tmp_path: Path
     assert late.velocity_threshold == as_recorded.velocity_threshold
 
 
+def test_the_noise_of_the_derived_velocity_hides_slow_samples(tmp_path: Path) -> None:
+    """The filter leaves less noise in the recorded velocity than the position has."""
+    noise = 2e-4 * np.random.default_rng(8).standard_normal(late_joint().height)
+    frame = late_joint().with_columns(position=pl.col("position") + noise)
+    late = record(tmp_path, frame)
+    assert late.columns["velocity"].source == "position"
+    as_recorded = record(tmp_path, frame, "trusted", trust=True)
+    assert late.velocity_threshold > 2.0 * as_recorded.velocity_threshold
+    wrong = np.sign(joint()["velocity"].to_numpy()) != np.sign(late.velocity)
+    assert not (wrong & late.moving).any()
+
+
 def moves_with_rests(lag: float) -> pl.DataFrame:
     """Moves that end in a rest, held by friction in the direction of the move before it."""
     rng, rate = np.random.default_rng(4), 100.0
