@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+from numpy.typing import NDArray
 
 from stribeck.base import linear
 from stribeck.effect.base import (
@@ -21,8 +24,13 @@ from stribeck.recording.recording import Recording
 
 #: Ratio of fast to slow speeds from which the curve shows.
 SPEED_RATIO = 2.5
-#: The slowest samples, as a share, and the share of the effect from which it acts there alone.
-SLOWEST, MOST = 0.1, 0.5
+#: Samples follow a curve from this share of it on, if it exceeds so many standard errors.
+LEAST_SHARE, SURE = 0.5, 4.0
+#: The slowest samples, as a share.
+SLOWEST = 0.1
+#: Shares of the curve in these samples: below the first it acts on the others too, below the second
+#: it does where they follow it.
+FEW, MOST = 0.5, 0.75
 
 
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
@@ -57,7 +65,8 @@ def _out_of_reach(after: Identified) -> str | None:
     slow = float(np.quantile(speed, SLOWEST))
     fast = speed > slow
     bend = _bend(after, speed)
-    if float(np.sum(bend[~fast] ** 2)) < MOST * float(np.sum(bend**2)):
+    share = float(np.sum(bend[~fast] ** 2) / max(float(np.sum(bend**2)), np.finfo(float).tiny))
+    if share < FEW or (share < MOST and _is_followed(after, after.rows[fast])):
         return None
     # A curve that bends by more than the error at the other speeds too shows there.
     error = (after.recording.torque - after.prediction)[after.rows][fast]
@@ -67,6 +76,26 @@ def _out_of_reach(after: Identified) -> str | None:
         f"it changes friction below {number(slow)} {after.model.position_unit}/s alone, the "
         f"slowest {100 * SLOWEST:.0f} % of the samples, and is dry friction above"
     )
+
+
+def _is_followed(after: Identified, rows: NDArray[np.intp]) -> bool:
+    """Whether the torque of these samples [m] bends as the effect says.
+
+    A share of the bend is fitted beside dry and viscous friction; its error is that of blocks.
+    """
+    r = after.recording
+    v, sign = r.velocity[rows], np.sign(r.velocity[rows])
+    bend = sign * _bend(after, np.abs(v))
+    columns = np.column_stack([bend, sign, v])
+    target = (r.torque - after.prediction)[rows] + bend
+    block = r.block[rows]
+    shares = [
+        linear.least_norm(columns[block != left], target[block != left])[0]
+        for left in np.unique(block)
+    ]
+    share = float(linear.least_norm(columns, target)[0])
+    error = math.sqrt((len(shares) - 1) * float(np.var(shares)))
+    return share > max(LEAST_SHARE, SURE * error)
 
 
 def _bend(after: Identified, speed: Array) -> Array:

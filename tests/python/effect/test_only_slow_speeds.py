@@ -41,3 +41,11 @@ def test_friction_that_also_bends_above_the_slowest_speeds_is_viscous(tmp_path: 
     v = motion()[2]
     frame = joint(0.3 * np.arcsinh(v / 0.001))
     assert RULE(sb.fit("coulomb+nonlinear_viscous", record(tmp_path, frame), starts=2)) is None
+
+
+def test_a_curve_below_the_noise_that_all_speeds_follow_is_viscous(tmp_path: Path) -> None:
+    v = motion()[2]
+    noise = 0.15 * np.random.default_rng(6).standard_normal(v.size)
+    frame = joint(0.5 * np.sign(v) * np.abs(v) ** 0.4 + noise)
+    fit = sb.fit("coulomb+nonlinear_viscous", record(tmp_path, frame), starts=2)
+    assert RULE(fit) is None
