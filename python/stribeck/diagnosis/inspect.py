@@ -250,6 +250,6 @@ def _proposed(
 
 def _load(recording: Recording) -> Array | None:
     """Load torque of the rigid body, array [n], identified where the recording does not give it."""
-    if not rigid_body_terms(recording, ()):
+    if not rigid_body_terms(recording):
         return None
     return own_load(fit("coulomb", recording).model, recording)

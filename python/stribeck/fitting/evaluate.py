@@ -89,7 +89,8 @@ def evaluate(
 
 def _without_load(model: Model, recording: Recording) -> tuple[str, ...]:
     """A note on a load torque that neither the model nor the recording gives."""
-    lacking = rigid_body_terms(recording, (*model.effects, *model.rigid_body))
+    known = (*model.effects, *model.rigid_body)
+    lacking = [term for term in rigid_body_terms(recording) if term not in known]
     if model.rigid_body or not lacking:
         return ()
     return (

@@ -159,14 +159,12 @@ def law_constants(law: str, recording: Recording) -> dict[str, float]:
     return {name: given[name] for name in row["constants"] if name in given}
 
 
-def rigid_body_terms(recording: Recording, effects: tuple[str, ...]) -> tuple[str, ...]:
+def rigid_body_terms(recording: Recording) -> tuple[str, ...]:
     """Rigid-body terms that must be identified together with friction on this recording."""
     if recording.load_torque is not None or recording.averaged:
         return ()
     terms = []
     for term in RIGID_BODY_EFFECTS:
-        if term in effects:
-            continue
         if term == "inertia" and recording.acceleration is None:
             continue
         if term == "gravity" and (recording.joint_kind != "revolute" or recording.position is None):
@@ -197,14 +195,16 @@ def model_for(spec: str | Model, recording: Recording) -> Model:
             if not known.issuperset(parameter["name"] for parameter in row["parameters"]):
                 constants = {**effect_constants(effect, recording), **constants}
     constants.update(known_constants(recording))
+    rigid_body = rigid_body_terms(recording)
     made = Model(
         law=spec.law,
         own=spec.own,
-        effects=spec.effects,
+        # Where no load torque is known, an inertia in a model is that of the rigid body.
+        effects=tuple(effect for effect in spec.effects if effect not in rigid_body),
         constants=constants,
         limits=spec.limits,
         stated=spec.stated,
-        rigid_body=rigid_body_terms(recording, spec.effects),
+        rigid_body=rigid_body,
         torque_unit=recording.torque_unit,
         position_unit=recording.position_unit,
         drive=recording.drive,

@@ -77,15 +77,17 @@ def test_difference_is_a_mean_and_its_error(tmp_path: Path) -> None:
 
 
 def test_causes_outside_friction_are_compared_at_reversals_too(tmp_path: Path) -> None:
-    """A delay shows most where dry friction changes its sign, which no law is fitted to."""
+    """A delay shows most where dry friction changes its sign, which need not be fitted to."""
     frame = joint()
     late = np.interp(frame["time"] - 0.02, frame["time"], frame["torque"])
     delayed = record(tmp_path, frame.with_columns(torque=pl.Series(late)), "late")
-    before = sb.fit("coulomb", delayed)
+    reversal = np.diff(np.sign(delayed.velocity), prepend=0.0) != 0.0
+    near = np.convolve(reversal, np.ones(9), "same") > 0.0
+    before = sb.fit("coulomb", delayed, transient=near)
     delay, inertia, curve = (
         Trial(effect, after, evidence(before, after))
         for effect in ("delay", "inertia", "nonlinear_viscous")
-        for after in [sb.fit(f"coulomb+{effect}", delayed)]
+        for after in [sb.fit(f"coulomb+{effect}", delayed, transient=near)]
     )
     scored = difference(inertia.fit, delay.fit)
     everywhere = difference(inertia.fit, delay.fit, everywhere=True)

@@ -68,10 +68,20 @@ def test_friction_of_many_turns_repeats_with_the_turn(tmp_path: Path) -> None:
 def test_rigid_body_is_identified_only_where_it_is_not_given(
     tmp_path: Path, plain: sb.Recording
 ) -> None:
-    assert rigid_body_terms(plain, ()) == ()
+    assert rigid_body_terms(plain) == ()
     unknown = record(tmp_path, joint().drop("load_torque"))
-    assert rigid_body_terms(unknown, ()) == ("inertia", "gravity")
-    assert rigid_body_terms(unknown, ("gravity",)) == ("inertia",)
+    assert rigid_body_terms(unknown) == ("inertia", "gravity")
+
+
+def test_an_inertia_in_a_model_is_that_of_the_rigid_body_or_beside_a_known_load(
+    tmp_path: Path, plain: sb.Recording
+) -> None:
+    unknown = record(tmp_path, joint().drop("load_torque"))
+    made = model_for("coulomb+stribeck+inertia+gravity", unknown)
+    assert made.effects == ("stribeck",) and made.rigid_body == ("inertia", "gravity")
+    given = model_for(sb.model("coulomb+inertia", inertia=0.7), unknown)
+    assert given.spec == "coulomb" and given.value("inertia") == 0.7
+    assert model_for("coulomb+inertia", plain).effects == ("inertia",)
 
 
 def test_missing_channels_are_named(tmp_path: Path) -> None:
