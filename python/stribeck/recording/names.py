@@ -238,6 +238,10 @@ def _stems(name: str) -> list[tuple[str, str | None]]:
     match = re.fullmatch(r"(.*?[^\d_])_?(\d{1,2})(_[A-Za-z%]\w*|\s*[\[(].*[\])])", name)
     if match:
         stems.append((match.group(1) + match.group(3), match.group(2)))
+    # position_j1, axis2_current_A
+    match = re.fullmatch(r"(?:(.+)_)?(?:joint|axis|j)_?(\d{1,2})(?:[_.](.+))?", name, re.IGNORECASE)
+    if match and (match.group(1) or match.group(3)):
+        stems.append(("_".join(filter(None, match.group(1, 3))), match.group(2)))
     return stems
 
 
