@@ -13,6 +13,7 @@ from stribeck.recording.consistency.effort import check_torque_at
 from stribeck.recording.consistency.joints import check_joints
 from stribeck.recording.consistency.load import check_load
 from stribeck.recording.consistency.others import check_others
+from stribeck.recording.consistency.runs import check_runs
 from stribeck.recording.consistency.temperature import check_temperature
 from stribeck.recording.consistency.torque import check_torque
 from stribeck.recording.consistency.velocity import check_velocity
@@ -26,6 +27,7 @@ __all__ = ["checked"]
 _CHECKS: tuple[Callable[[View], Check | None], ...] = (
     check_clock,
     check_joints,
+    check_runs,
     check_others,
     check_velocity,
     check_acceleration,

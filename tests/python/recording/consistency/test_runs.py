@@ -1,0 +1,58 @@
+"""Runs that hold the same samples are refused: what is held out must not be fitted to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+from stribeck.base.errors import RecordingError
+from synthetic import joint
+
+
+def written(folder: Path, frames: list[pl.DataFrame]) -> list[str]:
+    """Each frame as a file."""
+    paths = [folder / f"run{k}.parquet" for k in range(len(frames))]
+    for frame, path in zip(frames, paths, strict=True):
+        frame.write_parquet(path)
+    return [str(path) for path in paths]
+
+
+def test_a_file_inside_another_is_refused(tmp_path: Path) -> None:
+    frame = joint()
+    later = frame[500:1500].with_columns(time=pl.col("time") - frame["time"][500])
+    files = written(tmp_path, [frame, later])
+    with pytest.raises(RecordingError, match=r"100 % .* run 'run1' are those of run 'run0'"):
+        sb.fit("coulomb", sb.read(files))
+    trusted = sb.read(files, trust=True)
+    assert sb.fit("coulomb", trusted).rmse_held_out is not None
+
+
+def test_runs_of_one_file_are_compared_too(tmp_path: Path) -> None:
+    frame = joint(rows=1000)
+    both = pl.concat([frame.with_columns(run=pl.lit(name)) for name in ("a", "b")])
+    (path,) = written(tmp_path, [both])
+    with pytest.raises(RecordingError, match="leave out one of the two files, or rows with"):
+        sb.fit("coulomb", sb.read(path))
+
+
+def test_one_motion_that_was_measured_twice_is_accepted(tmp_path: Path) -> None:
+    frame = joint(rows=1500)
+    noise = 0.01 * np.random.default_rng(9).standard_normal(frame.height)
+    files = written(tmp_path, [frame, frame.with_columns(torque=frame["torque"] + noise)])
+    recording = sb.read(files)
+    assert all(check.check != "run" for check in recording.checks)
+    assert sb.fit("coulomb", recording).rmse_held_out is not None
+
+
+def test_the_same_rest_in_two_runs_is_no_repetition(tmp_path: Path) -> None:
+    frame = joint(rows=1500)
+    rest = pl.concat([frame[:1]] * 300).with_columns(
+        time=pl.arange(300, eager=True) * 0.01, velocity=pl.lit(0.0)
+    )
+    shifted = frame.with_columns(time=pl.col("time") + 3.0)
+    other = shifted.with_columns(torque=pl.col("torque") * 1.001)
+    files = written(tmp_path, [pl.concat([rest, run]) for run in (shifted, other)])
+    assert all(check.check != "run" for check in sb.read(files).checks)
