@@ -18,6 +18,7 @@ from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.free_form import OF_SPEED
 from stribeck.effect.stribeck import SLOW, no_slow_motion
 from stribeck.models.model import Model
+from stribeck.recording.derived_motion import BANDS
 from stribeck.recording.moves import move_seconds, moves
 from stribeck.recording.recording import Recording
 
@@ -30,7 +31,7 @@ PART = 0.25
 LONGEST = 0.1
 #: A lag below this part of a sample is none: the channels of a row are not sampled at one instant.
 LEAST_PART = 0.25
-#: A low-pass averages a derived velocity over this part of a period of its cut-off to each side.
+#: A low-pass averages a derived channel over this part of a period of its cut-off to each side.
 QUARTER = 0.25
 
 
@@ -142,7 +143,26 @@ def _unresolved(after: Identified) -> str | None:
             f"friction would lag by {number(1e3 * lag)} ms, less than the time over which the "
             f"low-pass of the velocity at {number(r.cutoff_hz)} Hz averages to each side"
         )
+    highest = _cutoff_of_inertia(after)
+    if highest is not None and lag < QUARTER / highest:
+        return (
+            f"friction would lag by {number(1e3 * lag)} ms, less than the time over which the "
+            f"low-pass of the acceleration at {number(highest)} Hz averages to each side: what the "
+            "torque of the inertia lacks looks like that"
+        )
     return None
+
+
+def _cutoff_of_inertia(after: Identified) -> float | None:
+    """The cut-off of a derived acceleration from which a torque is known, Hz; None: no filter."""
+    r, model = after.recording, after.model
+    load = r.columns.get("load_torque")
+    read = load is not None and load.derived
+    has_inertia = "inertia" in (*model.rigid_body, *model.effects)
+    if not r.columns["acceleration"].derived or not (read or has_inertia):
+        return None
+    limits = [r.cutoff_hz, None if r.motion_band is None else BANDS * r.motion_band]
+    return min((limit for limit in limits if limit is not None), default=None)
 
 
 EFFECT = Effect(

@@ -196,6 +196,25 @@ def test_a_lag_beyond_a_move_or_far_below_a_sample(stribeck_curve: Claim) -> Non
     assert low_pass is not None and "low-pass of the velocity" in low_pass
 
 
+def test_a_lag_below_the_low_pass_of_the_acceleration_of_an_inertia(
+    stribeck_curve: Claim,
+) -> None:
+    lagging = sb.add(stribeck_curve.after, "frictional_lag", starts=2)
+    claim = Claim("frictional_lag", stribeck_curve.after, lagging, 0.01)
+    r = claim.after.recording
+    derived = replace(r.columns["acceleration"], derived=True)
+    filtered = replace(r, cutoff_hz=5.0, columns={**r.columns, "acceleration": derived})
+    known = replace(claim, after=replace(claim.after, recording=filtered))
+    # The load torque was recorded: no torque needs the acceleration.
+    assert unresolved(with_values(known, frictional_lag=0.03)) is None
+    read = replace(r.columns["load_torque"], derived=True)
+    of_inertia = replace(filtered, columns={**filtered.columns, "load_torque": read})
+    blurred = replace(claim, after=replace(claim.after, recording=of_inertia))
+    reason = unresolved(with_values(blurred, frictional_lag=0.03))
+    assert reason is not None and "low-pass of the acceleration" in reason
+    assert unresolved(with_values(blurred, frictional_lag=0.06)) is None
+
+
 def test_presliding_within_a_sample(tmp_path: Path) -> None:
     claim = made(tmp_path, 0.0, "presliding")
     dry = claim.after.model.value("coulomb_friction")
