@@ -220,7 +220,7 @@ def _doubtful_ties(
     a torque. So are those that gain only outside the band of the motion, such as the shocks of a
     backlash, which an elasticity imitates. Friction acts in the band: none of these replaces it.
     An effect with impossible values that has the very torque of the best is no alternative. Nor is
-    one that delays the best by less than a sample.
+    one that delays the best by a few samples.
     """
     rivals = () if is_friction(best.effect) else sift.rivals
     refused = [row.trial for row in sift.refused if not only_imitates(row.trial, best, before)]

@@ -10,6 +10,7 @@ import scipy
 
 from stribeck.base.errors import StribeckError
 from stribeck.base.memo import Memo
+from stribeck.diagnosis.measurement.late_channels import REACH
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.shape import KEPT, share_kept, usual_shape
 from stribeck.diagnosis.plausibility.shape import STARTS as SHAPE_STARTS
@@ -102,8 +103,8 @@ class Trial:
         return self.samples_late < 1.0
 
     def only_delays(self, effect: str) -> bool:
-        """Whether it is another effect that lags by less than a sample."""
-        return self.is_within_a_sample and simpler_effect(self.effect) == effect
+        """Whether it is another effect that lags by a few samples."""
+        return self.samples_late <= REACH and simpler_effect(self.effect) == effect
 
     @property
     def bound_reason(self) -> str:

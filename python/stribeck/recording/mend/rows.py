@@ -16,6 +16,8 @@ __all__ = ["drop_bad_rows"]
 _NEEDED = 20
 #: From this share on, rows are no exception: the file is as it was meant.
 _FEW = 0.05
+#: A torque at its limit for longer than that is what the joint is driven with.
+_HALF = 0.5
 _EFFORTS = ("torque", "current", "friction_torque")
 #: A clipped torque stands at its limit this often in a row, and this many times as often in all
 #: as it is near it.
@@ -29,8 +31,8 @@ def drop_bad_rows(data: Channels, run: Ints) -> Ints:
 
     These are rows of zeros in the middle of a motion, rows that repeat the row before while the
     joint moves, torques that stand alone far outside of all others, and torques clipped at the
-    limit of a sensor. Each kind is left out, with a note, if there are few of it; repeated rows are
-    also where they are many.
+    limit of a sensor. Each kind is left out, with a note, if there are few of it; clipped rows up
+    to half of all, and repeated ones however many.
 
     Raises
     ------
@@ -43,15 +45,16 @@ def drop_bad_rows(data: Channels, run: Ints) -> Ints:
     run = _without_held(data, run)
     spikes = "have a torque that stands alone outside of all others (spikes)"
     run = _left_out(data, run, _spikes(data), spikes)
-    return _left_out(data, run, _clipped(data), "have a torque at the limit of its range (clipped)")
+    clipped = "have a torque at the limit of its range (clipped)"
+    return _left_out(data, run, _clipped(data), clipped, most=_HALF)
 
 
-def _left_out(data: Channels, run: Ints, bad: Bools, what: str) -> Ints:
-    """The runs of the rows that are not `bad`, which are left out if there are few."""
+def _left_out(data: Channels, run: Ints, bad: Bools, what: str, most: float = _FEW) -> Ints:
+    """The runs of the rows that are not `bad`, which are left out up to a share of them."""
     count = int(bad.sum())
     if not count:
         return run
-    if count > _FEW * len(run):
+    if count > most * len(run):
         data.notes.append(f"{count} of {len(run)} rows {what}: too many to leave out")
         return run
     at = int(np.flatnonzero(bad)[0])

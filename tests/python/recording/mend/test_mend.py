@@ -101,6 +101,19 @@ def test_a_clipped_torque_is_left_out(write):
     assert float(recording.torque.max()) < limit
 
 
+@pytest.mark.parametrize(("share", "is_left_out"), [(0.7, True), (0.1, False)])
+def test_a_torque_that_is_often_clipped_is_left_out_up_to_half(write, share, is_left_out):
+    frame = joint(rows=3000)
+    limit = share * float(frame["torque"].abs().max())
+    clipped = frame.with_columns(pl.col("torque").clip(-limit, limit))
+    count = int((clipped["torque"].abs() == limit).sum())
+    assert (150 < count < 1500) == is_left_out
+    recording = read(write(clipped))
+    assert recording.rows == (3000 - count if is_left_out else 3000)
+    end = "left out" if is_left_out else "too many to leave out"
+    assert end in _said(recording, "clipped")
+
+
 def test_a_clean_joint_is_left_as_it_is(write):
     frame = joint(rows=3000)
     recording = read(write(frame))
