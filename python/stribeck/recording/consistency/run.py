@@ -16,6 +16,7 @@ from stribeck.recording.consistency.others import check_others
 from stribeck.recording.consistency.runs import check_runs
 from stribeck.recording.consistency.temperature import check_temperature
 from stribeck.recording.consistency.torque import check_torque
+from stribeck.recording.consistency.turn import check_turn
 from stribeck.recording.consistency.velocity import check_velocity
 from stribeck.recording.consistency.view import View
 from stribeck.recording.prepared import Prepared
@@ -36,6 +37,7 @@ _CHECKS: tuple[Callable[[View], Check | None], ...] = (
     check_torque_at,
     check_current,
     check_temperature,
+    check_turn,
 )
 
 
