@@ -13,7 +13,7 @@ from stribeck.recording.consistency.effort import check_torque_at
 from stribeck.recording.consistency.joints import check_joints
 from stribeck.recording.consistency.load import check_load
 from stribeck.recording.consistency.others import check_others
-from stribeck.recording.consistency.runs import check_runs
+from stribeck.recording.consistency.runs import between_runs
 from stribeck.recording.consistency.temperature import check_temperature
 from stribeck.recording.consistency.torque import check_torque
 from stribeck.recording.consistency.turn import check_turn
@@ -28,7 +28,6 @@ __all__ = ["checked"]
 _CHECKS: tuple[Callable[[View], Check | None], ...] = (
     check_clock,
     check_joints,
-    check_runs,
     check_others,
     check_velocity,
     check_acceleration,
@@ -52,4 +51,4 @@ def checked(recording: Recording, prepared: Prepared, rows: Ints) -> tuple[Check
     """
     view = View(recording, prepared, rows)
     made = (check(view) for check in _CHECKS)
-    return tuple(one for one in made if one is not None)
+    return (*(one for one in made if one is not None), *between_runs(recording))

@@ -1,4 +1,6 @@
-"""Whether two runs hold the same samples, so that a held-out run would have been fitted to."""
+"""What several runs have in common: samples, so that a held-out run would have been fitted to; a
+position that each begins anew.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +10,9 @@ from numpy.typing import NDArray
 from stribeck.base.errors import option
 from stribeck.recording.arrays import Ints
 from stribeck.recording.check import Check
-from stribeck.recording.consistency.view import View
 from stribeck.recording.recording import Recording
 
-__all__ = ["check_runs", "runs_apart"]
+__all__ = ["between_runs"]
 
 #: Samples in a row that are equal in two runs only if they are the same samples.
 LENGTH = 20
@@ -19,17 +20,16 @@ LENGTH = 20
 MOST = 0.05
 #: Channels that are compared, where they were measured.
 CHANNELS = ("position", "velocity", "torque")
+#: A joint that turns by more than this does not stay within a stroke, rad.
+TURN = 2.0 * np.pi
+#: Part of the range of the position below which it is zero.
+ZERO = 1e-6
 #: Odd factor of the hash of a stretch, whose powers are odd too.
 FACTOR = 0x9E3779B97F4A7C15
 
 
-def check_runs(view: View) -> Check | None:
-    """Look for samples of one run in another; None where a file has one run."""
-    return runs_apart(view.recording)
-
-
-def runs_apart(recording: Recording) -> Check | None:
-    """Look for samples of one run in another; None where there is one run.
+def between_runs(recording: Recording) -> tuple[Check, ...]:
+    """The checks of the runs of a recording against each other.
 
     Examples
     --------
@@ -38,11 +38,17 @@ def runs_apart(recording: Recording) -> Check | None:
     >>> rows = np.r_[0:400, 200:600]
     >>> run = np.repeat(["a", "b"], 400)
     >>> r = Recording.from_columns(time=t[rows], velocity=v[rows], torque=v[rows] ** 3, run=run)
-    >>> runs_apart(r).said
+    >>> between_runs(r)[0].said
     "48 % of the moving samples of run 'a' are those of run 'b'"
     """
     if len(recording.run_names) < 2 or recording.averaged:
-        return None
+        return ()
+    found = (_apart(recording), _one_zero(recording))
+    return tuple(check for check in found if check is not None)
+
+
+def _apart(recording: Recording) -> Check | None:
+    """Whether samples of one run are in another."""
     stretch, first = _stretches(recording)
     run, names = recording.run[first], recording.run_names
     _, same = np.unique(stretch, return_inverse=True)
@@ -63,6 +69,23 @@ def runs_apart(recording: Recording) -> Check | None:
         f"of run '{names[other]}'",
         f"a model would be fitted to samples that are held out: leave out one of the two files, "
         f"or rows with {option('where')}",
+    )
+
+
+def _one_zero(recording: Recording) -> Check | None:
+    """Whether a joint that turns on begins each run at zero, as a relative encoder does."""
+    q = recording.position
+    if q is None or recording.joint_kind != "revolute" or np.ptp(q) <= TURN:
+        return None
+    begins = np.flatnonzero(np.diff(recording.run, prepend=-1))
+    if np.any(np.abs(q[begins]) > ZERO * np.ptp(q)):
+        return None
+    return Check(
+        "zero",
+        True,
+        "cannot check whether the position has one zero in all runs: each begins at 0; where the "
+        "encoder is set to zero at the start of a run, an effect of position has another phase in "
+        "each: ask for it in one run",
     )
 
 

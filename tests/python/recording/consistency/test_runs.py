@@ -56,3 +56,26 @@ def test_the_same_rest_in_two_runs_is_no_repetition(tmp_path: Path) -> None:
     other = shifted.with_columns(torque=pl.col("torque") * 1.001)
     files = written(tmp_path, [pl.concat([rest, run]) for run in (shifted, other)])
     assert all(check.check != "run" for check in sb.read(files).checks)
+
+
+def turning(begin: float, stroke: float = 40.0) -> pl.DataFrame:
+    """A joint that turns on, from a position on."""
+    t = np.arange(0.0, 10.0, 0.01)
+    q = begin + stroke * (1.0 - np.cos(0.8 * t)) / 2.0
+    v = np.gradient(q, t)
+    noise = 0.01 * np.random.default_rng(round(begin)).standard_normal(t.size)
+    return pl.DataFrame({"time": t, "position": q, "velocity": v, "torque": np.sign(v) + noise})
+
+
+@pytest.mark.parametrize(
+    ("begins", "stroke", "is_told"),
+    [((0.0, 0.0), 40.0, True), ((0.0, 3.0), 40.0, False), ((0.0, 0.0), 2.0, False)],
+)
+def test_a_position_that_begins_anew_in_each_run(
+    tmp_path: Path, begins: tuple[float, float], stroke: float, is_told: bool
+) -> None:
+    frames = [turning(begin, stroke) for begin in begins]
+    noise = 0.01 * np.random.default_rng(7).standard_normal(frames[1].height)
+    frames[1] = frames[1].with_columns(torque=frames[1]["torque"] + noise)
+    checks = sb.read(written(tmp_path, frames)).checks
+    assert [check.is_open for check in checks if check.check == "zero"] == [True] * is_told
