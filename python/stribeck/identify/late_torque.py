@@ -1,4 +1,4 @@
-"""Samples whose friction is that of a rest, because the torque is late or early.
+"""Samples whose friction is that of a rest or a reversal, because the torque is late or early.
 
 At rest the friction is whatever holds the joint, which no model predicts. A torque that is late
 shows it in the samples after the joint has started, one that is early in those before it stops.
@@ -19,38 +19,40 @@ Bools = NDArray[np.bool_]
 
 #: Samples by which the doubt exceeds twice the shift.
 MARGIN = 2
-#: Largest share of the moving samples that are beside a rest.
+#: Largest share of the moving samples that are in doubt.
 MOST = 0.5
 
 
 def friction_of_rest(recording: Recording) -> Bools:
-    """Moving samples that may show the friction of a rest or of slow motion, bool [n].
+    """Moving samples that may show the friction of a rest, bool [n].
 
     They are within twice the shift of the torque from a rest, or nearer where that would be most
-    samples, or their torque is that of a slow sample; none where the torque is in time.
+    samples; none where the torque is in time.
     """
-    shift = torque_shift(recording)
+    shift = abs(torque_shift(recording))
     if shift == 0:
         return np.zeros(recording.time.size, dtype=bool)
-    reach = 2 * abs(shift) + MARGIN
+    reach = 2 * shift + MARGIN
     most = MOST * np.count_nonzero(recording.moving)
     while np.count_nonzero(found := beside_rest(recording, reach)) > most:
         reach //= 2
-    both = found | shows_slow_motion(recording, shift)
-    return both if np.count_nonzero(both) <= most else found
+    return found
 
 
-def shows_slow_motion(recording: Recording, shift: int) -> Bools:
-    """Moving samples whose torque, `shift` samples late, is that of a slow sample, bool [n].
+def friction_of_slow_motion(recording: Recording) -> Bools:
+    """Moving samples whose torque is that of a slow sample, bool [n].
 
-    The direction of a slow sample is uncertain.
+    None where the torque is in time, or where that would be most samples.
     """
-    moving = recording.moving
+    shift, moving = torque_shift(recording), recording.moving
+    if shift == 0:
+        return np.zeros(moving.size, dtype=bool)
     shown = (
         neighbour(moving.astype(np.float64), recording.segment, -ago)
         for ago in (shift - 1, shift, shift + 1)
     )
-    return moving & (np.min(list(shown), axis=0) == 0.0)
+    slow = moving & (np.min(list(shown), axis=0) == 0.0)
+    return slow & (np.count_nonzero(slow) <= MOST * np.count_nonzero(moving))
 
 
 def beside_rest(recording: Recording, reach: int) -> Bools:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.late_torque import friction_of_rest
+from stribeck.identify.late_torque import friction_of_rest, friction_of_slow_motion
 from stribeck.identify.torque_shift import torque_shift
 from stribeck.identify.transients import stretches, transient_rows
 from stribeck.identify.uncertain_direction import late_velocity, uncertain_direction
@@ -20,12 +20,14 @@ def rows_left_out(recording: Recording) -> Bools:
     They are transients, or in doubt because a channel is late.
     """
     doubtful = _in_doubt(recording)
-    return transient_rows(recording, doubtful, torque_shift(recording)) | doubtful
+    return transient_rows(recording, doubtful) | doubtful | friction_of_slow_motion(recording)
 
 
 def transients(recording: Recording, marked: Bools) -> list[tuple[float, float]]:
     """Start and end times in s of those of the samples `marked` that are transients."""
-    return stretches(recording, marked & ~_in_doubt(recording))
+    return stretches(
+        recording, marked & ~(_in_doubt(recording) | friction_of_slow_motion(recording))
+    )
 
 
 def left_out_notes(recording: Recording, marked: Bools) -> tuple[str, ...]:
@@ -62,13 +64,17 @@ def _of_late_velocity(recording: Recording, marked: Bools) -> tuple[str, ...]:
 
 
 def _of_late_torque(recording: Recording, marked: Bools) -> tuple[str, ...]:
-    count = int(np.count_nonzero(marked & friction_of_rest(recording)))
-    if not count:
-        return ()
     shift = torque_shift(recording)
     way = "lags behind" if shift > 0 else "leads"
+    found = (
+        (friction_of_rest(recording), "beside a rest may show the friction of that rest"),
+        (friction_of_slow_motion(recording), "may show the friction of the reversal beside them"),
+    )
+    said = [(int(np.count_nonzero(marked & rows)), what) for rows, what in found]
+    listed = [f"{count} samples {what}" for count, what in said if count]
+    if not listed:
+        return ()
     return (
         f"the torque {way} the motion by about {1e3 * abs(shift) / recording.rate_hz:.3g} ms: "
-        f"{count} samples beside a rest may show the friction of that rest; they are scored, but "
-        f"excluded from the fit",
+        f"{', and '.join(listed)}; they are scored, but excluded from the fit",
     )

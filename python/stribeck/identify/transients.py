@@ -23,7 +23,6 @@ from stribeck.base import linear
 from stribeck.identify.figures import zero_phase
 from stribeck.identify.normal import NormalEquations
 from stribeck.recording.recording import Recording
-from stribeck.recording.rows import neighbour
 
 Array = NDArray[np.float64]
 
@@ -35,6 +34,8 @@ WINDOWS = 60
 #: median of all windows, and that of this many windows whose acceleration is most similar.
 OUTLIER_FILTERED, OUTLIER_RAW = 4.0, 3.0
 SIMILAR = 5
+#: It is none if the error of the simple model there is at most this many times that median.
+USUAL = 1.75
 #: Most transients; what happens more often needs an explanation.
 STRETCHES = 3
 
@@ -84,7 +85,7 @@ def simple_columns(recording: Recording) -> list[Array]:
 
 
 def transient_rows(
-    recording: Recording, apart: NDArray[np.bool_] | None = None, late: int = 0
+    recording: Recording, apart: NDArray[np.bool_] | None = None
 ) -> NDArray[np.bool_]:
     """Samples of transients, bool [n]: windows that a flexible model does not fit.
 
@@ -92,8 +93,6 @@ def transient_rows(
     ----------
     apart : bool array [n]
         Samples that are not looked at; default: none.
-    late : int
-        Samples by which the torque lags the motion.
     """
     none = np.zeros(recording.time.size, dtype=bool)
     moving = recording.moving if apart is None else recording.moving & ~apart
@@ -101,7 +100,7 @@ def transient_rows(
         return none
     columns = of_one_size(flexible_columns(recording), moving)
     simple = of_one_size(simple_columns(recording), moving)
-    target = neighbour(recording.torque, recording.segment, late) - recording.known_torque
+    target = recording.torque - recording.known_torque
     window = np.minimum(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
     ).astype(np.uint32)
@@ -141,7 +140,8 @@ def _outliers(
         normal = max(float(np.median(level)) * factor, 1.5 * float(np.quantile(level, 0.9)))
         large = level > normal
         outlier = outlier | large
-        explained = _levels(shown(by_simple), window, moving) <= normal
+        usual = USUAL * float(np.median(level))
+        explained = _levels(shown(by_simple), window, moving) <= usual
         alone = level > factor * np.median(level[similar], axis=1)
         unlike = unlike | (large & alone & ~explained)
     return outlier, unlike

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.identify.late_torque import friction_of_rest
+from stribeck.identify.late_torque import friction_of_rest, friction_of_slow_motion
 from stribeck.identify.torque_shift import torque_shift
 from stribeck.motion.generate.hidden import generate
 
@@ -85,7 +85,7 @@ def test_the_torque_of_slow_samples_is_in_doubt() -> None:
     v = v + 0.004 * np.random.default_rng(5).standard_normal(t.size)
     r = sb.Recording.from_columns(time=t, velocity=v, torque=torque)
     assert torque_shift(r) == late
-    left_out = friction_of_rest(r)
+    left_out = friction_of_slow_motion(r)
     slow = ~r.moving
     shown = np.zeros(t.size, dtype=bool)
     for ahead in (late - 1, late, late + 1):
