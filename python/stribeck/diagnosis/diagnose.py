@@ -49,10 +49,7 @@ FORM = (
     "the torque depends on the same quantity in another form: a free function of it explains more"
 )
 #: Why an effect is not claimed that the model explains in another form.
-SHAPE = (
-    "the effects of the model would explain what it does, were the form of their torque a little "
-    "different"
-)
+SHAPE = "a slightly different form of the effects that the model has would explain the same"
 NOT_ASKED = Unexplained(None, None, asked=False)
 
 

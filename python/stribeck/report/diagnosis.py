@@ -10,7 +10,15 @@ from stribeck.effect.describe import physically
 from stribeck.report.channels import torque_name
 from stribeck.report.comparison import noise_floor_sentence
 from stribeck.report.layout import bullets, joined, notes_text, paragraph
-from stribeck.report.numbers import confidence_text, confidence_words, hedge, listed, percent, plain
+from stribeck.report.numbers import (
+    POSSIBLE,
+    confidence_text,
+    confidence_words,
+    hedge,
+    listed,
+    percent,
+    plain,
+)
 from stribeck.report.recording import file_name, held_out_meaning
 from stribeck.report.residual import residual_figure
 from stribeck.report.unexplained import left_after
@@ -224,7 +232,7 @@ def finding_text(finding: Finding, number: int | None = None) -> str:
     ]
     if finding.part < min(finding.weight, finding.certainty):
         parts.append(paragraph("The structure that remains limits this confidence.", 5))
-    if finding.indistinguishable_from:
+    if finding.indistinguishable_from and round(finding.confidence, 2) >= POSSIBLE:
         parts.append(paragraph(indistinguishable_sentence(finding), 5))
     return "\n".join(parts)
 

@@ -8,6 +8,8 @@ MINUS = "\N{MINUS SIGN}"
 DASH = "\N{EN DASH}"
 #: Digits where no standard error is known.
 PLAIN_DIGITS = 4
+#: The lowest confidence of what is possible; below it is unlikely.
+POSSIBLE = 0.05
 
 
 def minus_signs(text: str) -> str:
@@ -126,7 +128,7 @@ def confidence_words(confidence: float) -> str:
         0.8: "likely",
         0.55: "probable",
         0.45: "as likely as not",
-        0.05: "possible",
+        POSSIBLE: "possible",
     }
     shown = round(confidence, 2)
     words = next((said for least, said in levels.items() if shown >= least), "unlikely")
