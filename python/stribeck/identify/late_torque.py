@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.identify.torque_shift import torque_shift
+from stribeck.identify.torque_shift import is_delayed, torque_shift
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import neighbour
 
@@ -42,10 +42,11 @@ def friction_of_rest(recording: Recording) -> Bools:
 def friction_of_slow_motion(recording: Recording) -> Bools:
     """Moving samples whose torque is that of a slow sample, bool [n].
 
-    None where the torque is in time, or where that would be most samples.
+    None where the torque is late by a sample at most: those would be all samples that show it. Nor
+    where that need not be a delay, or where they would be most samples.
     """
     shift, moving = torque_shift(recording), recording.moving
-    if shift == 0:
+    if abs(shift) <= 1 or not is_delayed(recording):
         return np.zeros(moving.size, dtype=bool)
     shown = (
         neighbour(moving.astype(np.float64), recording.segment, -ago)

@@ -39,9 +39,23 @@ def torque_shift(recording: Recording) -> int:
 
     It is searched within the bounds of the effect `delay`.
     """
+    return int(_remembered(recording)["samples"])
+
+
+def is_delayed(recording: Recording) -> bool:
+    """Whether beyond the shift the error rises as it falls up to it, as it does behind a delay.
+
+    Presliding, or a load torque behind a filter, have a minimum too, but a wide one.
+    """
+    return bool(_remembered(recording)["is_delay"])
+
+
+def _remembered(recording: Recording) -> dict[str, float]:
+    """The shift in samples, and whether it is that of a delay (0 or 1); searched once."""
     if "torque_shift" not in recording.remembered:
-        recording.remembered["torque_shift"] = {"samples": float(_searched(recording))}
-    return int(recording.remembered["torque_shift"]["samples"])
+        shift, is_delay = _searched(recording)
+        recording.remembered["torque_shift"] = {"samples": shift, "is_delay": is_delay}
+    return recording.remembered["torque_shift"]
 
 
 def with_shift(start: Array, unknown: Bools, model: Model, recording: Recording) -> Array:
@@ -56,17 +70,17 @@ def with_shift(start: Array, unknown: Bools, model: Model, recording: Recording)
     return np.where(is_delay, torque_shift(recording) / (recording.rate_hz or 1.0), start)
 
 
-def _searched(recording: Recording) -> int:
-    """The shift with the least error, if that is much less than without a shift."""
+def _searched(recording: Recording) -> tuple[int, bool]:
+    """The shift with the least error, if that is much less than without; whether it is a delay."""
     r = recording
     if r.averaged or r.rate_hz <= 0.0:
-        return 0
+        return 0, False
     delay = catalog()["effects"]["delay"]["parameters"][0]
     reach = math.ceil(delay["upper"] * scale_values(r)[delay["scale"]] * r.rate_hz)
     rows = _sliding(r, reach)
     columns = of_one_size([*flexible_columns(r), *_building_up(r)], r.moving)
     if rows.size < 10 * columns.shape[1]:
-        return 0
+        return 0, False
     rows = rows[:: -(-rows.size // ROWS)]
     columns, known = columns[rows], r.known_torque[rows, None]
     step = -(-reach // SHIFTS)
@@ -77,7 +91,14 @@ def _searched(recording: Recording) -> int:
     errors = _errors(columns, r.torque[rows[:, None] + near] - known)
     best = int(near[np.argmin(errors)])
     # At the end of the range the error may fall further: what causes that is no shift.
-    return best if errors.min() < (1.0 - LEAST) * without and abs(best) < reach else 0
+    if errors.min() >= (1.0 - LEAST) * without or abs(best) >= reach:
+        return 0, False
+    # The shift is known to half a sample, so that twice of it is known to one.
+    beyond = 2 * best + int(np.sign(best))
+    if abs(beyond) > reach:
+        return best, False
+    (after,) = _errors(columns, r.torque[rows + beyond, None] - known)
+    return best, bool(after >= without)
 
 
 def _sliding(recording: Recording, reach: int) -> NDArray[np.intp]:
