@@ -6,6 +6,7 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.base.errors import ModelFileError, ProjectError
@@ -154,7 +155,9 @@ def test_a_project_is_written_beside_its_data_or_not_at_all(
 
 def test_several_files_are_runs_of_the_joint(folder: Path, tmp_path: Path) -> None:
     given = folder / "data" / "joint.csv"
-    paths = [Path(shutil.copy(given, tmp_path / f"run{k}.csv")) for k in (1, 2)]
+    paths = [tmp_path / f"run{k}.csv" for k in (1, 2)]
+    for factor, path in zip((1.0, 1.01), paths, strict=True):
+        pl.read_csv(given).with_columns(pl.col("torque") * factor).write_csv(path)
     made = sb.Project.new(tmp_path / "p.toml", paths, "coulomb", starts=1, where="time > 1.0")
     made.save()
     again = sb.project(tmp_path / "p.toml")
