@@ -58,6 +58,18 @@ def test_the_same_rest_in_two_runs_is_no_repetition(tmp_path: Path) -> None:
     assert all(check.check != "run" for check in sb.read(files).checks)
 
 
+def test_a_simulation_without_noise_may_repeat_itself() -> None:
+    t = np.arange(0.0, 20.0, 0.01)
+    v = np.sin(1.1 * t) + 0.4 * np.sin(3.7 * t)
+    columns = {"time": t, "velocity": v, "torque": 2.0 * np.sign(v) + v}
+    both = {name: np.tile(values, 2) for name, values in columns.items()}
+    run = np.repeat([1, 2], t.size)
+    noise = 1e-3 * np.tile(np.random.default_rng(1).standard_normal(t.size), 2)
+    for torque, is_refused in ((both["torque"], False), (both["torque"] + noise, True)):
+        made = sb.Recording.from_columns(run=run, **{**both, "torque": torque})
+        assert any(check.check == "run" for check in made.checks) == is_refused
+
+
 def turning(begin: float, stroke: float = 40.0) -> pl.DataFrame:
     """A joint that turns on, from a position on."""
     t = np.arange(0.0, 10.0, 0.01)
