@@ -18,7 +18,7 @@ from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.free_form import OF_SPEED
 from stribeck.effect.stribeck import SLOW, no_slow_motion
 from stribeck.models.model import Model
-from stribeck.recording.derived_motion import BANDS
+from stribeck.recording.derived_motion import acceleration_cutoff
 from stribeck.recording.moves import move_seconds, moves
 from stribeck.recording.recording import Recording
 
@@ -161,8 +161,8 @@ def _cutoff_of_inertia(after: Identified) -> float | None:
     has_inertia = "inertia" in (*model.rigid_body, *model.effects)
     if not r.columns["acceleration"].derived or not (read or has_inertia):
         return None
-    limits = [r.cutoff_hz, None if r.motion_band is None else BANDS * r.motion_band]
-    return min((limit for limit in limits if limit is not None), default=None)
+    period = r.scales()["sample_period"]
+    return acceleration_cutoff(r.time, r.velocity, r.segment, period, r.cutoff_hz)
 
 
 EFFECT = Effect(

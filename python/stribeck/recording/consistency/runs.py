@@ -13,7 +13,10 @@ from stribeck.recording.check import Check
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import noise_level
 
-__all__ = ["between_runs"]
+__all__ = ["OF_RUNS", "between_runs"]
+
+#: The checks of the runs against each other, which change with the runs that a recording has.
+OF_RUNS = ("run", "zero")
 
 #: Samples in a row that are equal in two runs only if they are the same samples.
 LENGTH = 20

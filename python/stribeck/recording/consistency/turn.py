@@ -8,6 +8,7 @@ import numpy as np
 
 from stribeck.base import linear
 from stribeck.base.errors import option
+from stribeck.recording.arrays import Floats
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.view import View
 from stribeck.recording.recording import Recording
@@ -39,7 +40,7 @@ def check_turn(view: View) -> Check | None:
     if r.joint_kind != "revolute" or r.load_torque is not None:
         return None
     span = float(np.ptp(r.position))
-    left = _left(r)
+    left = _left(r, r.position)
     best = min(left, key=lambda unit: left[unit])
     if best == "rad" or span * UNITS[best] < LEAST_TURN * 2.0 * math.pi:
         return None
@@ -57,11 +58,11 @@ def check_turn(view: View) -> Check | None:
     )
 
 
-def _left(r: Recording) -> dict[str, float]:
+def _left(r: Recording, position: Floats) -> dict[str, float]:
     """Sums of squares that friction, an inertia and a weight leave, by the unit of the angle."""
     rows = np.flatnonzero(r.moving)
     rows = rows[:: max(1, rows.size // ROWS)]
-    v, q = r.velocity[rows], r.position[rows] if r.position is not None else np.zeros(rows.size)
+    v, q = r.velocity[rows], position[rows]
     base = [np.sign(v), v, r.acceleration_smooth[rows], np.ones(rows.size)]
     target = r.torque[rows]
     made = {}

@@ -15,7 +15,7 @@ from stribeck.recording.assemble import completed, settled
 from stribeck.recording.channels import Channels, Layout
 from stribeck.recording.check import Check
 from stribeck.recording.columns import Choice
-from stribeck.recording.consistency.runs import between_runs
+from stribeck.recording.consistency.runs import OF_RUNS, between_runs
 from stribeck.recording.hold_out import with_hold_out
 from stribeck.recording.origin import Origin
 from stribeck.recording.prepared import Prepared
@@ -53,7 +53,7 @@ def join(parts: Sequence[Part], path: str, *, standstill: bool = False) -> Recor
     made = completed(data, layout, torque_at=torque_at)
     made = replace(
         made,
-        checks=(*_checks(parts, made), *between_runs(made)),
+        checks=(*(c for c in _checks(parts, made) if c.check not in OF_RUNS), *between_runs(made)),
         trusted=all(p.trusted for p in _contradictory(parts) or parts),
         origin=Origin(
             data.prepared.settings,
