@@ -147,8 +147,8 @@ def _unresolved(after: Identified) -> str | None:
     if highest is not None and lag < QUARTER / highest:
         return (
             f"friction would lag by {number(1e3 * lag)} ms, less than the time over which the "
-            f"low-pass of the acceleration at {number(highest)} Hz averages to each side: the error "
-            "of the inertia's torque looks like such a lag"
+            f"low-pass of the acceleration at {number(highest)} Hz averages to each side: the "
+            "error of the inertia's torque looks like such a lag"
         )
     return None
 
