@@ -18,11 +18,11 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 
-import stribeck.identify.search as search
+import stribeck.identify.search.many_starts as search
 from optima import CLOSE, FOLDER, TABLE
 from problems import Case, cases, error_of, found, problem_of
-from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON, MOST_OF_AGS
-from stribeck.identify.effort import THOROUGH
+from stribeck.identify.search.algorithms import ALGORITHMS, GAUSS_NEWTON, MOST_OF_AGS
+from stribeck.identify.search.effort import THOROUGH
 
 #: The row of the default without hops and a second round of starts.
 ALONE = f"{GAUSS_NEWTON}, alone"

@@ -20,7 +20,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from problems import Case, cases, error_of, found
-from stribeck.identify.effort import THOROUGH
+from stribeck.identify.search.effort import THOROUGH
 
 FOLDER = Path(__file__).resolve().parents[2] / "target" / "search"
 TABLE = Path(__file__).with_name("optima.json")

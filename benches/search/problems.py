@@ -13,12 +13,12 @@ import numpy as np
 import stribeck as sb
 from numpy.typing import NDArray
 from stribeck.fitting.fit import rows_to_fit
-from stribeck.identify.effort import Effort
-from stribeck.identify.ends import Found
+from stribeck.identify.left_out.transients import transient_rows
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.search import multi_start
-from stribeck.identify.transients import transient_rows
+from stribeck.identify.search.effort import Effort
+from stribeck.identify.search.ends import Found
+from stribeck.identify.search.many_starts import multi_start
 from stribeck.scale.study.plan import REVIEW
 
 #: Motions of the robot, and every how many cycles of the motion are recorded.

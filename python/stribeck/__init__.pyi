@@ -20,7 +20,7 @@ from .fitting.methods.arm_load import planar_arm_load
 from .fitting.protocols.found import Protocol, found_protocols
 from .fitting.result import Fit
 from .fitting.transmission.measure import Transmission, measure_transmission
-from .identify.estimates import Estimate
+from .identify.errors.estimates import Estimate
 from .models.build import law, model
 from .models.catalog import catalog, effects, laws
 from .models.model import Model

@@ -37,8 +37,8 @@ AREAS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
         ("identify/held_out.py",),
         ("identify/test_held_out.py",),
     ),
-    "covariance": (("identify/covariance.py",), ("identify/test_covariance.py",)),
-    "transients": (("identify/transients.py",), ("identify/test_transients.py",)),
+    "covariance": (("identify/errors/covariance.py",), ("identify/errors/test_covariance.py",)),
+    "transients": (("identify/left_out/transients.py",), ("identify/left_out/test_transients.py",)),
     "residual": (
         tuple(f"diagnosis/residual/{name}.py" for name in
               ("noise_floor", "regimes", "unexplained", "varying_friction", "explainable")),

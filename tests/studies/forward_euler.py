@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from stribeck.base.files import save_figure
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.space import SearchSpace
+from stribeck.identify.search.space import SearchSpace
 from stribeck.motion.generate.files import write_robot
 from stribeck.motion.generate.ur5e import RobotRecording
 from stribeck.report.style import AFTER, BEFORE, new_figure, style, title

@@ -18,7 +18,7 @@ import click
 from stribeck.benchmark.cases import CORRELATIONS, FIRST_SEED
 from stribeck.benchmark.coverage import autoregressive_recording
 from stribeck.fitting.fit import fit
-from stribeck.identify.estimates import ERRORS, Errors
+from stribeck.identify.errors.estimates import ERRORS, Errors
 from stribeck.recording.load import read
 
 SPECS = {"coulomb": "coulomb", "stribeck": "coulomb+stribeck"}

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from stribeck.base import linear
 from stribeck.benchmark.draws import root_mean_square
 from stribeck.benchmark.sample import Oracle
-from stribeck.identify.covariance import batches, correlation_length
+from stribeck.identify.errors.covariance import batches, correlation_length
 
 Array = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from typing import cast
 import click
 
 from stribeck.cli.options import Command, Values, gathered
-from stribeck.identify.algorithms import ALGORITHMS, GAUSS_NEWTON
-from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
-from stribeck.identify.loss import LOSSES
+from stribeck.identify.search.algorithms import ALGORITHMS, GAUSS_NEWTON
+from stribeck.identify.stated.choices import CHOICE_NAMES, ChoiceArguments, Choices
+from stribeck.identify.stated.loss import LOSSES
 
 _START = click.option(
     "--start", multiple=True, metavar="NAME=VALUE", help="Start value of a parameter."

@@ -15,7 +15,7 @@ from stribeck.base.replaceable import kind_of
 from stribeck.cli.common import say
 from stribeck.cli.options import Command
 from stribeck.cli.words import complete_model
-from stribeck.identify.statements import names_in
+from stribeck.identify.stated.statements import names_in
 from stribeck.models.formula_law import is_formula
 from stribeck.models.published.sets import PREFIX
 from stribeck.recording.readers import SUFFIXES

@@ -8,8 +8,8 @@ import click
 
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.unread import refuse_unread
-from stribeck.identify.estimates import ERRORS, Errors
-from stribeck.identify.uncertainty import RESAMPLES
+from stribeck.identify.errors.estimates import ERRORS, Errors
+from stribeck.identify.errors.uncertainty import RESAMPLES
 
 
 @dataclass(frozen=True)

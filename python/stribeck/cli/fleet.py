@@ -22,7 +22,7 @@ from stribeck.cli.outputs import FIGURE, PAGE, CheckedCommand
 from stribeck.cli.progress import Progress, stop_with
 from stribeck.cli.refused import OF_A_FLEET, refusing
 from stribeck.cli.unread import refuse_unread
-from stribeck.identify.choices import Choices
+from stribeck.identify.stated.choices import Choices
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.fleet.changes import Question
 from stribeck.scale.fleet.fleet import STRAGGLER

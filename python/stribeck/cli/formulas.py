@@ -14,8 +14,8 @@ from stribeck.cli.common import is_model_file, say
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.choices import Choices
 from stribeck.identify.scaling import model_for
+from stribeck.identify.stated.choices import Choices
 from stribeck.models.build import law, model
 from stribeck.models.formula_law import (
     LAW,

@@ -51,7 +51,7 @@ from stribeck.diagnosis.loop.improve import Improvement
 from stribeck.diagnosis.loop.improve import improve as improve_from
 from stribeck.diagnosis.trials.dry_friction import check_rejected
 from stribeck.fitting.evaluate import evaluated_on
-from stribeck.identify.choices import parameters_of_effects
+from stribeck.identify.stated.choices import parameters_of_effects
 from stribeck.models.formula_law import effect_name
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording

@@ -29,7 +29,7 @@ from stribeck.cli.outputs import MODEL, CheckedCommand
 from stribeck.cli.pages import diagnosis_report
 from stribeck.cli.refused import OF_A_PROJECT, refusing
 from stribeck.cli.unread import refuse_unread
-from stribeck.identify.choices import Choices
+from stribeck.identify.stated.choices import Choices
 from stribeck.projects.project import Project
 from stribeck.recording.options import ReadOptions
 

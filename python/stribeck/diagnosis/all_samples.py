@@ -14,7 +14,7 @@ from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import QUICK, Effort
+from stribeck.identify.search.effort import QUICK, Effort
 from stribeck.recording.recording import Recording
 
 

@@ -18,13 +18,13 @@ from stribeck.diagnosis.residual.regimes import regime_rows
 from stribeck.fitting.energy import electrical_energy, joules
 from stribeck.fitting.evaluate import evaluate
 from stribeck.fitting.result import Fit
-from stribeck.identify.figures import relative_residual, rms
-from stribeck.identify.information import (
+from stribeck.identify.errors.information import (
     Information,
     criteria,
     effective_samples,
     information,
 )
+from stribeck.identify.figures import relative_residual, rms
 from stribeck.identify.weights import weighted
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one

@@ -34,8 +34,8 @@ from stribeck.diagnosis.trials.trial import SIGNIFICANCE, Trial, try_effect
 from stribeck.diagnosis.visibility.visibility import visibility
 from stribeck.fitting.fit import fit, on_recording, with_choices
 from stribeck.fitting.result import FIT, Fit
-from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
-from stribeck.identify.effort import FROM_NEARBY
+from stribeck.identify.search.effort import FROM_NEARBY
+from stribeck.identify.stated.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import effect_ids
 from stribeck.models.formula_law import effect_name
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt

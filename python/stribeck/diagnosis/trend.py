@@ -19,8 +19,8 @@ from stribeck.base.errors import StribeckError
 from stribeck.diagnosis.carrying import FEWEST_MOVES, fewest
 from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.fitting.result import Fit
-from stribeck.identify.covariance import batches, correlation_length, covariance_of
-from stribeck.identify.estimates import APART
+from stribeck.identify.errors.covariance import batches, correlation_length, covariance_of
+from stribeck.identify.errors.estimates import APART
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.parts import friction_parts

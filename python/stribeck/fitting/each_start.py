@@ -12,10 +12,10 @@ from stribeck.fitting.fit import rows_to_fit
 from stribeck.fitting.prediction import Prediction, refuse_infinite
 from stribeck.fitting.solve import Solution, solve, with_own_load
 from stribeck.fitting.stated import solve_under
-from stribeck.identify.effort import Effort
-from stribeck.identify.ends import Ended
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
+from stribeck.identify.search.effort import Effort
+from stribeck.identify.search.ends import Ended
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 

@@ -14,7 +14,7 @@ from stribeck.base.errors import FitError, option
 from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.predict import predicted
 from stribeck.fitting.result import Fit
-from stribeck.identify.estimates import Estimate
+from stribeck.identify.errors.estimates import Estimate
 from stribeck.identify.figures import relative_residual, rms
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.model import Model

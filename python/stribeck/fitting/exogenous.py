@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from stribeck.base.checks import check_choice
 from stribeck.base.errors import FitError, SpecError, StribeckError, option
-from stribeck.identify.estimates import Estimate
-from stribeck.identify.exogeneity import Exogeneity, exogeneity
-from stribeck.identify.instruments import Instruments
+from stribeck.identify.errors.estimates import Estimate
+from stribeck.identify.instrumental.exogeneity import Exogeneity, exogeneity
+from stribeck.identify.instrumental.instruments import Instruments
+from stribeck.identify.instrumental.reference_motion import along_reference, follows, lag
 from stribeck.identify.problem import Problem
-from stribeck.identify.reference_motion import along_reference, follows, lag
 from stribeck.models.model import Model
 from stribeck.models.rigid_body import needs_own_load, own_load
 from stribeck.recording.recording import Recording

@@ -12,13 +12,13 @@ from stribeck.fitting.prediction import Prediction
 from stribeck.fitting.result import Fit
 from stribeck.fitting.solve import Solution
 from stribeck.fitting.stated import Under
-from stribeck.identify.at_bound import at_bound_notes
-from stribeck.identify.effort import Effort
+from stribeck.identify.errors.at_bound import at_bound_notes
+from stribeck.identify.errors.uncertainty import Uncertainty, identified
 from stribeck.identify.figures import relative_residual
 from stribeck.identify.held_out import Refit
-from stribeck.identify.left_out import left_out_notes
+from stribeck.identify.left_out.rows import left_out_notes
 from stribeck.identify.problem import Problem
-from stribeck.identify.uncertainty import Uncertainty, identified
+from stribeck.identify.search.effort import Effort
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 

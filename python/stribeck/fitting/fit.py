@@ -21,14 +21,14 @@ from stribeck.fitting.per_run import named_per_run, refuse_beside, with_own_valu
 from stribeck.fitting.result import Estimator, Fit
 from stribeck.fitting.solve import Solution, solve, with_own_load
 from stribeck.fitting.stated import Under, prior_conflicts, solve_under
-from stribeck.identify.choices import ChoiceArguments, Choices, refuse_statements
-from stribeck.identify.effort import THOROUGH, Effort
-from stribeck.identify.estimates import Errors
-from stribeck.identify.left_out import rows_left_out
+from stribeck.identify.errors.estimates import Errors
+from stribeck.identify.errors.uncertainty import RESAMPLES, Uncertainty
+from stribeck.identify.left_out.rows import rows_left_out
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
 from stribeck.identify.scaling import model_for
-from stribeck.identify.uncertainty import RESAMPLES, Uncertainty
+from stribeck.identify.search.effort import THOROUGH, Effort
+from stribeck.identify.stated.choices import ChoiceArguments, Choices, refuse_statements
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
 from stribeck.recording.recording import Recording

@@ -12,12 +12,12 @@ from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.prediction import Prediction
 from stribeck.fitting.result import Fit
 from stribeck.fitting.solve import Solution
-from stribeck.identify.at_bound import at_bound_notes
-from stribeck.identify.estimates import Identified, estimates_by_rows
-from stribeck.identify.exogeneity import stroke_batches
+from stribeck.identify.errors.at_bound import at_bound_notes
+from stribeck.identify.errors.estimates import Identified, estimates_by_rows
 from stribeck.identify.figures import relative_residual, rms
-from stribeck.identify.instruments import Instruments, fitted_columns
-from stribeck.identify.separable import Search
+from stribeck.identify.instrumental.exogeneity import stroke_batches
+from stribeck.identify.instrumental.instruments import Instruments, fitted_columns
+from stribeck.identify.search.separable import Search
 from stribeck.models.rigid_body import needs_own_load, own_load
 
 #: Most rounds of values and identified load torque, and the change at which they end.

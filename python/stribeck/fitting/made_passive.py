@@ -13,15 +13,15 @@ from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.result import Fit
 from stribeck.fitting.solve import Solution
 from stribeck.fitting.stated import Under
-from stribeck.identify.conditions import Together
-from stribeck.identify.constrained import Conditioned
-from stribeck.identify.effort import Effort
-from stribeck.identify.objective import Objective
-from stribeck.identify.optimality import polished
+from stribeck.identify.constrained.conditions import Together
+from stribeck.identify.constrained.minimise import Conditioned
+from stribeck.identify.constrained.objective import Objective
+from stribeck.identify.constrained.optimality import polished
+from stribeck.identify.constrained.region import Region
+from stribeck.identify.errors.uncertainty import Uncertainty
 from stribeck.identify.problem import Problem
-from stribeck.identify.region import Region
 from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.uncertainty import Uncertainty
+from stribeck.identify.search.effort import Effort
 from stribeck.models.rigid_body import needs_own_load, own_load
 from stribeck.passivity.imposed import Passive, PassiveCost, impose
 

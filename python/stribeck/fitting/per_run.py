@@ -14,15 +14,15 @@ from stribeck.base.errors import FitError, SpecError, nearest, option
 from stribeck.fitting.prediction import Prediction
 from stribeck.fitting.result import Fit
 from stribeck.fitting.solve import Solution, solve
-from stribeck.identify.at_bound import at_bound_notes
-from stribeck.identify.choices import refuse_statements
-from stribeck.identify.effort import Effort
-from stribeck.identify.estimates import Estimate, Identified
+from stribeck.identify.errors.at_bound import at_bound_notes
+from stribeck.identify.errors.estimates import Estimate, Identified
+from stribeck.identify.errors.uncertainty import Uncertainty, identified
 from stribeck.identify.figures import relative_residual
 from stribeck.identify.per_run import OfRuns, PerRunProblem, Widened
 from stribeck.identify.problem import Problem
-from stribeck.identify.separable import CAUTIOUS, Search, minimise
-from stribeck.identify.uncertainty import Uncertainty, identified
+from stribeck.identify.search.effort import Effort
+from stribeck.identify.search.separable import CAUTIOUS, Search, minimise
+from stribeck.identify.stated.choices import refuse_statements
 from stribeck.models.model import Model
 from stribeck.models.rigid_body import needs_own_load
 from stribeck.recording.recording import Recording

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError
-from stribeck.identify.effort import Effort
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import Refit, held_out_prediction
 from stribeck.identify.problem import Problem
+from stribeck.identify.search.effort import Effort
 from stribeck.models.parts import friction_parts
 
 Array = NDArray[np.float64]

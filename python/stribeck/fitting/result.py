@@ -19,14 +19,14 @@ from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.exogenous import tested
 from stribeck.fitting.predict import predicted
 from stribeck.fitting.stated import PLAIN, HeldConstraint, Under
-from stribeck.identify.confounded import Combination
-from stribeck.identify.ends import StartsReport
-from stribeck.identify.estimates import Errors, Estimate
-from stribeck.identify.exogeneity import Exogeneity
+from stribeck.identify.errors.confounded import Combination
+from stribeck.identify.errors.estimates import Errors, Estimate
+from stribeck.identify.errors.information import Information, criteria, information
+from stribeck.identify.errors.matrix import ParameterMatrix
 from stribeck.identify.figures import torque_cutoff
-from stribeck.identify.information import Information, criteria, information
-from stribeck.identify.left_out import transients
-from stribeck.identify.matrix import ParameterMatrix
+from stribeck.identify.instrumental.exogeneity import Exogeneity
+from stribeck.identify.left_out.rows import transients
+from stribeck.identify.search.ends import StartsReport
 from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.fitted import note_origin
 from stribeck.models.model import Model

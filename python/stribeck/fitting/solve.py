@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from stribeck.base.checks import check_count
 from stribeck.effect.constants import effect_constants
-from stribeck.identify.effort import Effort
-from stribeck.identify.ends import Found
 from stribeck.identify.figures import rms
+from stribeck.identify.left_out.torque_shift import with_shift
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.search import multi_start
-from stribeck.identify.separable import minimise
-from stribeck.identify.torque_shift import with_shift
+from stribeck.identify.search.effort import Effort
+from stribeck.identify.search.ends import Found
+from stribeck.identify.search.many_starts import multi_start
+from stribeck.identify.search.separable import minimise
 from stribeck.models.catalog import catalog
 from stribeck.models.model import Model
 from stribeck.models.rigid_body import needs_own_load, own_load

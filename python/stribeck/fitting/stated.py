@@ -11,24 +11,24 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.solve import Solution
-from stribeck.identify.conditions import Together
-from stribeck.identify.constrained import Conditioned, minimise_under
-from stribeck.identify.constraints import ParameterConstraints, Ties
-from stribeck.identify.covariance import correlation_length
-from stribeck.identify.effort import Effort
-from stribeck.identify.estimates import Errors, Identified
-from stribeck.identify.face import estimates_on_face
+from stribeck.identify.constrained.conditions import Together
+from stribeck.identify.constrained.constraints import ParameterConstraints, Ties
+from stribeck.identify.constrained.minimise import Conditioned, minimise_under
+from stribeck.identify.constrained.objective import Objective
+from stribeck.identify.constrained.optimality import Optimality, polished
+from stribeck.identify.constrained.region import Region
+from stribeck.identify.errors.covariance import correlation_length
+from stribeck.identify.errors.estimates import Errors, Identified
+from stribeck.identify.errors.face import estimates_on_face
+from stribeck.identify.errors.uncertainty import Uncertainty, identified
 from stribeck.identify.figures import rms
-from stribeck.identify.loss import Loss, LossName, robust_scale
-from stribeck.identify.objective import Objective
-from stribeck.identify.optimality import Optimality, polished
-from stribeck.identify.prior import Prior
 from stribeck.identify.problem import Problem
-from stribeck.identify.region import Region
 from stribeck.identify.scaling import bounds as scaled_bounds
-from stribeck.identify.separable import Search
-from stribeck.identify.space import SearchSpace
-from stribeck.identify.uncertainty import Uncertainty, identified
+from stribeck.identify.search.effort import Effort
+from stribeck.identify.search.separable import Search
+from stribeck.identify.search.space import SearchSpace
+from stribeck.identify.stated.loss import Loss, LossName, robust_scale
+from stribeck.identify.stated.prior import Prior
 from stribeck.models.model import Model
 from stribeck.models.rigid_body import needs_own_load, own_load
 

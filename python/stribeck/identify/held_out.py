@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from stribeck.effect.registry import find
 from stribeck.identify.problem import Problem
-from stribeck.identify.separable import minimise
+from stribeck.identify.search.separable import minimise
 from stribeck.identify.triangle import Triangle, triangles
 from stribeck.models.catalog import effect_row
 from stribeck.models.model import Model

@@ -54,7 +54,7 @@ def search_options(
     Parameters
     ----------
     logarithmic, tolerance, most, damping
-        As of `stribeck.identify.separable.minimise`.
+        As of `stribeck.identify.search.separable.minimise`.
     """
     return {
         "lower": lower,

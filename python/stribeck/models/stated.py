@@ -28,7 +28,7 @@ class Stated:
     loss
         How residuals count: ``"squares"``, ``"huber"`` or ``"cauchy"``.
     algorithm
-        Search from each start (`stribeck.identify.algorithms`); None: the default.
+        Search from each start (`stribeck.identify.search.algorithms`); None: the default.
     """
 
     starts: Mapping[str, float] = field(default_factory=dict)

@@ -16,11 +16,11 @@ from numpy.typing import NDArray
 
 from stribeck import _core
 from stribeck.base.errors import FitError, SpecError, option
-from stribeck.identify.conditions import Together
-from stribeck.identify.constrained import minimise_under
-from stribeck.identify.objective import Objective
+from stribeck.identify.constrained.conditions import Together
+from stribeck.identify.constrained.minimise import minimise_under
+from stribeck.identify.constrained.objective import Objective
+from stribeck.identify.constrained.region import Region
 from stribeck.identify.problem import Problem
-from stribeck.identify.region import Region
 from stribeck.models.model import Model
 from stribeck.passivity.check import BUDGET
 from stribeck.passivity.conditions import Conditions, FrictionOf

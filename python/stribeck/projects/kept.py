@@ -8,7 +8,7 @@ import numpy as np
 
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.estimates import AT_BOUND, Estimate
+from stribeck.identify.errors.estimates import AT_BOUND, Estimate
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.projects.source import Source

@@ -25,7 +25,7 @@ from stribeck.diagnosis.trials.ranking import share_of_unexplained
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.choices import ChoiceArguments, Choices
+from stribeck.identify.stated.choices import ChoiceArguments, Choices
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
 from stribeck.projects.findings import Found, Remembered

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from stribeck.diagnosis.compare import Assessment, Comparison
-    from stribeck.identify.information import Information
+    from stribeck.identify.errors.information import Information
 
 #: A regime is marked where its RMSE is this multiple of that of all scored samples.
 MARKED = 1.2

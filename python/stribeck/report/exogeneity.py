@@ -9,7 +9,7 @@ from stribeck.report.numbers import percent, plain, unit_text
 
 if TYPE_CHECKING:
     from stribeck.fitting.result import Fit
-    from stribeck.identify.exogeneity import Exogeneity
+    from stribeck.identify.instrumental.exogeneity import Exogeneity
 
 #: A bias of fewer standard errors hardly changes an interval.
 SMALL = 0.5

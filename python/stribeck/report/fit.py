@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stribeck.identify.algorithms import GAUSS_NEWTON
 from stribeck.identify.figures import torque_cutoff
+from stribeck.identify.search.algorithms import GAUSS_NEWTON
 from stribeck.report.channels import clock, torque_name
 from stribeck.report.exogeneity import exogeneity_text
 from stribeck.report.layout import joined, notes_text, paragraph
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from stribeck.fitting.result import Fit
-    from stribeck.identify.estimates import Errors
+    from stribeck.identify.errors.estimates import Errors
 
 PASSIVITY = {
     True: "Passive: this friction is proved to generate no energy within its operating box.",

@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from stribeck.identify.estimates import poorly_determined
+from stribeck.identify.errors.estimates import poorly_determined
 from stribeck.report.layout import paragraph, table
 from stribeck.report.numbers import (
     MINUS,
@@ -20,10 +20,10 @@ from stribeck.report.numbers import (
 )
 
 if TYPE_CHECKING:
-    from stribeck.identify.confounded import Combination
-    from stribeck.identify.estimates import Estimate
-    from stribeck.identify.information import Information
-    from stribeck.identify.matrix import ParameterMatrix
+    from stribeck.identify.errors.confounded import Combination
+    from stribeck.identify.errors.estimates import Estimate
+    from stribeck.identify.errors.information import Information
+    from stribeck.identify.errors.matrix import ParameterMatrix
     from stribeck.models.model import Model
 
 #: Pairs of parameters with a correlation of at least this size are named.

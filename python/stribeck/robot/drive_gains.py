@@ -16,8 +16,8 @@ from scipy.special import stdtrit
 
 from stribeck.base import linear
 from stribeck.base.errors import FitError
-from stribeck.identify.covariance import covariance_of, seen
-from stribeck.identify.estimates import APART
+from stribeck.identify.errors.covariance import covariance_of, seen
+from stribeck.identify.errors.estimates import APART
 from stribeck.robot.solve import Solved
 
 Array = NDArray[np.float64]

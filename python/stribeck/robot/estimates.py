@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.identify.covariance import covariance_of, seen
-from stribeck.identify.estimates import APART, Estimate, reached
+from stribeck.identify.errors.covariance import covariance_of, seen
+from stribeck.identify.errors.estimates import APART, Estimate, reached
 from stribeck.robot.result import BaseEstimate, JointFit, Payload
 from stribeck.robot.solve import Solved
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import polars as pl
 
 from stribeck.base.shown import Shown
-from stribeck.identify.estimates import Estimate
+from stribeck.identify.errors.estimates import Estimate
 from stribeck.models.model import Model
 from stribeck.robot.consistent import Bodies
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, cast
 
-from stribeck.identify.choices import CHOICE_NAMES, ChoiceArguments, Choices
+from stribeck.identify.stated.choices import CHOICE_NAMES, ChoiceArguments, Choices
 from stribeck.recording.options import ReadArguments, ReadOptions
 
 __all__ = ["ScaleArguments", "split_arguments"]

@@ -10,7 +10,7 @@ import pytest
 import stribeck as sb
 from stribeck.diagnosis.loop.determined import known_combinations, undetermined
 from stribeck.diagnosis.loop.passive import cost_of_passivity
-from stribeck.identify.matrix import ParameterMatrix
+from stribeck.identify.errors.matrix import ParameterMatrix
 from synthetic import joint, motion, record
 
 

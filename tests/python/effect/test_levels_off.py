@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.diagnose import diagnose
-from stribeck.identify.choices import Choices, parameters_of_effects
 from stribeck.identify.scaling import model_for
+from stribeck.identify.stated.choices import Choices, parameters_of_effects
 from synthetic import VISCOUS, joint, motion, record
 
 

@@ -10,7 +10,7 @@ import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
-from stribeck.identify.loss import TUNING
+from stribeck.identify.stated.loss import TUNING
 from synthetic import COULOMB, VISCOUS, joint, motion, record
 
 Array = NDArray[np.float64]

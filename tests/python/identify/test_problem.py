@@ -10,7 +10,7 @@ import pytest
 import stribeck as sb
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.space import SearchSpace
+from stribeck.identify.search.space import SearchSpace
 from synthetic import joint, joint_with_stribeck_curve, motion, record
 
 

@@ -19,7 +19,7 @@ from stribeck.benchmark.reproduce.ur5e_tables import JOINT_2, Errors, Table
 from stribeck.fitting.energy import electrical_energy, total_energy
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import THOROUGH
+from stribeck.identify.search.effort import THOROUGH
 from stribeck.motion.generate.ur5e import JOINTS, RobotRecording
 from stribeck.recording.load import read
 from stribeck.recording.recording import Recording

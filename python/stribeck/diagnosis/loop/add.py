@@ -12,7 +12,7 @@ from stribeck.diagnosis.trials.dry_friction import lacks_dry_friction, spelled_o
 from stribeck.diagnosis.trials.trial import add_effect
 from stribeck.fitting.fit import on_recording, with_choices
 from stribeck.fitting.result import FIT, Fit
-from stribeck.identify.choices import ChoiceArguments, parameters_of_effects
+from stribeck.identify.stated.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import check_effect, simpler_effect
 from stribeck.models.formula_law import is_formula
 from stribeck.recording.several.concat import Recordings

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from stribeck.fitting.result import Fit
-from stribeck.identify.confounded import Combination
-from stribeck.identify.estimates import Estimate, poorly_determined
+from stribeck.identify.errors.confounded import Combination
+from stribeck.identify.errors.estimates import Estimate, poorly_determined
 
 #: Least correlation of two errors from which the combination of both is looked at.
 CORRELATED = 0.7

@@ -32,11 +32,11 @@ from stribeck.diagnosis.trials.dry_friction import check_rejected
 from stribeck.effect.describe import where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.choices import ChoiceArguments, Choices, parameters_of_effects
-from stribeck.identify.confounded import Combination
-from stribeck.identify.effort import FROM_NEARBY
-from stribeck.identify.left_out import rows_left_out
+from stribeck.identify.errors.confounded import Combination
+from stribeck.identify.left_out.rows import rows_left_out
 from stribeck.identify.scaling import model_for
+from stribeck.identify.search.effort import FROM_NEARBY
+from stribeck.identify.stated.choices import ChoiceArguments, Choices, parameters_of_effects
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
 from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt

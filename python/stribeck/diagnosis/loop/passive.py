@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from stribeck.base.errors import FitError
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import FROM_NEARBY
+from stribeck.identify.search.effort import FROM_NEARBY
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from stribeck.diagnosis.trials.remainder import part_explained, unknown_structur
 from stribeck.effect.describe import is_drive_train, where
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import FROM_NEARBY
+from stribeck.identify.search.effort import FROM_NEARBY
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
 

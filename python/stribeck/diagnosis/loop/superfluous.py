@@ -16,8 +16,8 @@ from stribeck.diagnosis.trials.trial import SIGNIFICANCE, SIMPLEST
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import QUICK
 from stribeck.identify.figures import rms
+from stribeck.identify.search.effort import QUICK
 from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
 

@@ -13,9 +13,9 @@ from stribeck.effect.base import number
 from stribeck.effect.describe import acts_in_shocks
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import QUICK
-from stribeck.identify.estimates import Estimate
+from stribeck.identify.errors.estimates import Estimate
 from stribeck.identify.scaling import bounds
+from stribeck.identify.search.effort import QUICK
 from stribeck.models.catalog import effect_row
 
 #: Samples in each move, for each parameter of an effect, that must carry it, unless they are so

@@ -9,7 +9,7 @@ from stribeck.diagnosis.plausibility.shape import share_kept
 from stribeck.effect.registry import find
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.effort import QUICK
+from stribeck.identify.search.effort import QUICK
 
 #: Share of its gain that an effect must not keep where nothing changes with time.
 MOST = 0.9

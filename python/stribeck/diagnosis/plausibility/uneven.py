@@ -23,7 +23,7 @@ from stribeck.effect.base import number
 from stribeck.effect.describe import is_friction
 from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
-from stribeck.identify.added_torque import added_torque_test
+from stribeck.identify.errors.added_torque import added_torque_test
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import effect_row
 

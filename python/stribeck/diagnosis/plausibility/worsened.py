@@ -12,8 +12,8 @@ import numpy as np
 from stribeck.diagnosis.plausibility.claim import Array, Claim
 from stribeck.effect.base import number
 from stribeck.effect.describe import acts_in_shocks
-from stribeck.identify.covariance import batches, correlation_length
-from stribeck.identify.loss import robust_scale
+from stribeck.identify.errors.covariance import batches, correlation_length
+from stribeck.identify.stated.loss import robust_scale
 
 #: Fewer samples show no mean.
 FEWEST = 20

@@ -18,7 +18,7 @@ from stribeck.base.pool import threads
 from stribeck.diagnosis.residual.lasting import STRUCTURE, lasting_square
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.fitting.result import Fit
-from stribeck.identify.covariance import correlation_length
+from stribeck.identify.errors.covariance import correlation_length
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

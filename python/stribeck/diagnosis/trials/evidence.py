@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from stribeck.diagnosis.least_fall import reduced
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
-from stribeck.identify.added_torque import added_torque_test
-from stribeck.identify.covariance import batches, correlation_length
+from stribeck.identify.errors.added_torque import added_torque_test
+from stribeck.identify.errors.covariance import batches, correlation_length
 from stribeck.identify.figures import bridged, rms, zero_phase
 
 Array = NDArray[np.float64]

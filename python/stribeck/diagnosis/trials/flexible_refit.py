@@ -12,7 +12,7 @@ from stribeck.diagnosis.least_fall import reduced
 from stribeck.diagnosis.trials.evidence import Difference, held_out_square
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial
 from stribeck.fitting.result import Fit
-from stribeck.identify.added_torque import added_torque_test
+from stribeck.identify.errors.added_torque import added_torque_test
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.identify.problem import Problem
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from stribeck.fitting.result import Fit
-from stribeck.identify.estimates import poorly_determined
+from stribeck.identify.errors.estimates import poorly_determined
 from stribeck.models.catalog import effect_row
 from stribeck.models.model import Model
 

@@ -19,7 +19,7 @@ from stribeck.diagnosis.trials.trial import Trial
 from stribeck.effect.base import FixedForm
 from stribeck.effect.registry import find, of_catalog
 from stribeck.fitting.result import Fit
-from stribeck.identify.added_torque import added_torque_test
+from stribeck.identify.errors.added_torque import added_torque_test
 from stribeck.models.catalog import effect_row
 
 Array = NDArray[np.float64]

@@ -19,14 +19,14 @@ from stribeck.base.memo import Memo
 from stribeck.diagnosis.extend import extended_models
 from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
-from stribeck.identify.delays import across_samples, free_delay
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import held_out_residual
+from stribeck.identify.left_out.torque_shift import with_shift
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import bounds, model_for
-from stribeck.identify.separable import CAUTIOUS, Search, minimise_from
-from stribeck.identify.space import SearchSpace
-from stribeck.identify.torque_shift import with_shift
+from stribeck.identify.search.delays import across_samples, free_delay
+from stribeck.identify.search.separable import CAUTIOUS, Search, minimise_from
+from stribeck.identify.search.space import SearchSpace
 from stribeck.models.model import Model
 from stribeck.models.rigid_body import own_load
 

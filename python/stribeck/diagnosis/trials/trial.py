@@ -24,11 +24,11 @@ from stribeck.effect.describe import acts_in_shocks, is_friction
 from stribeck.effect.registry import find
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.at_bound import wider
-from stribeck.identify.choices import Choices
-from stribeck.identify.effort import FROM_NEARBY, QUICK, THOROUGH
-from stribeck.identify.estimates import Estimate
+from stribeck.identify.errors.at_bound import wider
+from stribeck.identify.errors.estimates import Estimate
 from stribeck.identify.problem import Problem
+from stribeck.identify.search.effort import FROM_NEARBY, QUICK, THOROUGH
+from stribeck.identify.stated.choices import Choices
 from stribeck.models.catalog import catalog, simpler_effect
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model

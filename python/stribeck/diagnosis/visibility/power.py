@@ -14,7 +14,7 @@ import scipy
 from numpy.typing import NDArray
 
 from stribeck.diagnosis.visibility.held_out import NOTHING_HELD_OUT, HeldOutBalance
-from stribeck.identify.covariance import batches, correlation_length
+from stribeck.identify.errors.covariance import batches, correlation_length
 
 Array = NDArray[np.float64]
 

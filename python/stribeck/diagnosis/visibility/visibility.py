@@ -23,7 +23,7 @@ from stribeck.diagnosis.visibility.subspace import sine_to_span
 from stribeck.effect.base import number
 from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
-from stribeck.identify.confounded import partners, reason
+from stribeck.identify.errors.confounded import partners, reason
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.catalog import effect_row

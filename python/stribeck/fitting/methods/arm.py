@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, option
 from stribeck.base.shown import Shown
-from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
+from stribeck.identify.errors.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
 from stribeck.identify.normal import NormalEquations, solve_bounded
 from stribeck.models.build import model

@@ -6,7 +6,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from stribeck.identify.estimates import Estimate
+from stribeck.identify.errors.estimates import Estimate
 from stribeck.models.model import Model
 
 Array = NDArray[np.float64]

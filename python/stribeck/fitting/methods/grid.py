@@ -23,12 +23,12 @@ from stribeck.fitting.methods.least_absolute import least_absolute, least_total,
 from stribeck.fitting.methods.ranges import Ranges
 from stribeck.fitting.operating_box import operating_box
 from stribeck.fitting.result import Fit
-from stribeck.identify.choices import refuse_statements
-from stribeck.identify.covariance import seen
-from stribeck.identify.estimates import Estimate
+from stribeck.identify.errors.covariance import seen
+from stribeck.identify.errors.estimates import Estimate
 from stribeck.identify.figures import relative_residual, rms
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import model_for
+from stribeck.identify.stated.choices import refuse_statements
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 from stribeck.recording.weights import refuse_weights

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from stribeck.base.errors import ModelFileError
 from stribeck.base.files import write_table
 from stribeck.base.shown import Shown
-from stribeck.identify.covariance import correlation_length
+from stribeck.identify.errors.covariance import correlation_length
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

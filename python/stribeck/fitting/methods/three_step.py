@@ -21,11 +21,11 @@ from stribeck.fitting.methods.least_squares import BoundedLeastSquares
 from stribeck.fitting.methods.presliding import Presliding
 from stribeck.fitting.operating_box import box_of_all
 from stribeck.fitting.result import Fit
-from stribeck.identify.choices import refuse_statements
-from stribeck.identify.covariance import batches, correlation_length, sandwich, seen
+from stribeck.identify.errors.covariance import batches, correlation_length, sandwich, seen
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.identify.scaling import model_for
+from stribeck.identify.stated.choices import refuse_statements
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 from stribeck.recording.weights import refuse_weights

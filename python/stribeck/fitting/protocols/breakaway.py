@@ -22,7 +22,7 @@ from stribeck.fitting.protocols.rests import (
     still_speed,
     torque_noise,
 )
-from stribeck.identify.covariance import correlation_length
+from stribeck.identify.errors.covariance import correlation_length
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from stribeck.base import linear
 from stribeck.fitting.transmission.windup import Windup
-from stribeck.identify.covariance import batches, correlation_length
+from stribeck.identify.errors.covariance import batches, correlation_length
 
 Array = NDArray[np.float64]
 

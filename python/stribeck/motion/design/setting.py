@@ -14,7 +14,7 @@ from stribeck.base import linear
 from stribeck.base.errors import FitError, SpecError, option
 from stribeck.diagnosis.visibility.power import ExpectedNoise
 from stribeck.fitting.result import Fit
-from stribeck.identify.covariance import correlation_length
+from stribeck.identify.errors.covariance import correlation_length
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.model import Model

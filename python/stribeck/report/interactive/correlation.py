@@ -11,7 +11,7 @@ from stribeck.report.interactive.base import INK, hover, name_places, new_plot
 if TYPE_CHECKING:
     from bokeh.plotting import figure
 
-    from stribeck.identify.matrix import ParameterMatrix
+    from stribeck.identify.errors.matrix import ParameterMatrix
 
 #: From minus one over zero to one; both ends stand out on a light and on a dark ground.
 _BLUE = ("#0072B2", "#2f86bd", "#5b9bc8", "#88b1d2", "#b5c8dc")

@@ -14,7 +14,7 @@ from stribeck.report.numbers import plain, unit_text, with_error
 if TYPE_CHECKING:
     from bokeh.plotting import figure
 
-    from stribeck.identify.estimates import Estimate
+    from stribeck.identify.errors.estimates import Estimate
 
 #: Ends further from a value than this share of it are cut off, so that the others can be read.
 WIDEST = 1.5

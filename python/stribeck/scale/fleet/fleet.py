@@ -17,7 +17,7 @@ import polars as pl
 from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError, SpecError, StribeckError
 from stribeck.base.version import __version__
-from stribeck.identify.choices import Choices, parameters_of_effects
+from stribeck.identify.stated.choices import Choices, parameters_of_effects
 from stribeck.models.build import law
 from stribeck.models.build import model as named
 from stribeck.models.formula_law import is_formula

@@ -12,9 +12,9 @@ from stribeck.diagnosis.loop.improve import improve
 from stribeck.diagnosis.residual.noise_floor import noise_floor
 from stribeck.fitting.fit import fit
 from stribeck.fitting.result import Fit
-from stribeck.identify.choices import Choices
-from stribeck.identify.covariance import batches, correlation_length, sandwich
+from stribeck.identify.errors.covariance import batches, correlation_length, sandwich
 from stribeck.identify.problem import Problem
+from stribeck.identify.stated.choices import Choices
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import parse_model_file

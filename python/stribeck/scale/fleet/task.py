@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_limits
 
 from stribeck.base.errors import RecordingError, StribeckError, nearest, option
 from stribeck.base.version import __version__
-from stribeck.identify.choices import Choices
+from stribeck.identify.stated.choices import Choices
 from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.readers import read_table

@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, option
 from stribeck.fitting.result import Fit
-from stribeck.identify.at_bound import at_bound_notes
-from stribeck.identify.covariance import correlation_length
-from stribeck.identify.estimates import Identified, estimates_by_rows
+from stribeck.identify.errors.at_bound import at_bound_notes
+from stribeck.identify.errors.covariance import correlation_length
+from stribeck.identify.errors.estimates import Identified, estimates_by_rows
 from stribeck.identify.held_out import Bounded
-from stribeck.identify.separable import Search, minimise
+from stribeck.identify.search.separable import Search, minimise
 from stribeck.identify.triangle import Triangle
 from stribeck.models.model import Model
 from stribeck.models.rigid_body import needs_own_load

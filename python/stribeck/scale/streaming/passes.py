@@ -128,7 +128,7 @@ class _Sums:
 
 @dataclass
 class StreamedProblem:
-    """A model on a data set, for `stribeck.identify.separable`.
+    """A model on a data set, for `stribeck.identify.search.separable`.
 
     Parameters
     ----------

@@ -10,9 +10,9 @@ import polars as pl
 from stribeck.base.errors import StribeckError
 from stribeck.base.shown import Shown
 from stribeck.fitting.result import Fit
-from stribeck.identify.confounded import Combination
-from stribeck.identify.estimates import Estimate
-from stribeck.identify.matrix import ParameterMatrix
+from stribeck.identify.errors.confounded import Combination
+from stribeck.identify.errors.estimates import Estimate
+from stribeck.identify.errors.matrix import ParameterMatrix
 from stribeck.models.fitted import FittedOn
 from stribeck.models.model import Model
 from stribeck.models.model_file import ModelFile

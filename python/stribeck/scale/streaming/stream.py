@@ -14,15 +14,15 @@ from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.loop.improve import improve as improve_in_memory
 from stribeck.fitting.fit import fit as fit_in_memory
 from stribeck.fitting.result import Fit
-from stribeck.identify.choices import (
+from stribeck.identify.scaling import model_for
+from stribeck.identify.search.effort import QUICK
+from stribeck.identify.stated.choices import (
     CHOICE_NAMES,
     ChoiceArguments,
     Choices,
     parameters_of_effects,
     refuse_statements,
 )
-from stribeck.identify.effort import QUICK
-from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
 from stribeck.recording.excerpt import SAMPLE_ROWS
 from stribeck.recording.options import ReadArguments, ReadOptions

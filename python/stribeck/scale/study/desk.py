@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.base.pool import ProcessPool, run_each
-from stribeck.identify.left_out import rows_left_out
+from stribeck.identify.left_out.rows import rows_left_out
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.plan import StudyPlan
 
@@ -35,7 +35,7 @@ class Desk:
         return self._recording[1]
 
     def transient(self, joint: str | None) -> NDArray[np.bool_]:
-        """Return which samples of a joint are excluded from fits (`identify.transients`)."""
+        """Return which samples of a joint are excluded from fits (`identify.left_out`)."""
         recording = self.recording(joint)
         if self._transient is None:
             self._transient = rows_left_out(recording)

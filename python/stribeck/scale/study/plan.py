@@ -9,8 +9,8 @@ from itertools import groupby
 import numpy as np
 
 from stribeck.base.errors import FitError, SpecError
-from stribeck.identify.choices import Choices
 from stribeck.identify.scaling import model_for
+from stribeck.identify.stated.choices import Choices
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
 from stribeck.recording.load import read_with

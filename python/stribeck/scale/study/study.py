@@ -16,8 +16,8 @@ from stribeck.base.errors import FitError, RecordingError, SpecError, option
 from stribeck.base.files import save_figure, write_whole
 from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
-from stribeck.identify.algorithms import GLOBAL
-from stribeck.identify.choices import Choices
+from stribeck.identify.search.algorithms import GLOBAL
+from stribeck.identify.stated.choices import Choices
 from stribeck.recording.options import ReadOptions
 from stribeck.scale.arguments import ScaleArguments, split_arguments
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint

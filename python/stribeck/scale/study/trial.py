@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import StribeckError
 from stribeck.fitting.each_start import FittedStart, fit_each
-from stribeck.identify.choices import Choices
-from stribeck.identify.effort import THOROUGH
 from stribeck.identify.scaling import model_for
+from stribeck.identify.search.effort import THOROUGH
+from stribeck.identify.stated.choices import Choices
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.desk import Desk
@@ -86,7 +86,7 @@ def run_trials(
     jobs
         All starts of one law on one joint.
     transient : bool array [n]
-        Samples excluded from the fits (`stribeck.identify.transients`).
+        Samples excluded from the fits (`stribeck.identify.left_out.transients`).
     """
     began = time.perf_counter()
     fits: Sequence[FittedStart | StribeckError]

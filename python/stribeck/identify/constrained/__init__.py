@@ -1,0 +1,1 @@
+"""Least squares under bounds, ties and conditions, and with priors or a robust loss."""

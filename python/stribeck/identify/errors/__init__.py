@@ -1,0 +1,1 @@
+"""Errors of the identified parameters: covariance, bootstrap, profiles, what is determined."""

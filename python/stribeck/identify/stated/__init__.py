@@ -1,0 +1,1 @@
+"""What a user states about a fit: choices, priors, formulas, the loss."""
