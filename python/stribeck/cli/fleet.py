@@ -202,6 +202,6 @@ def _write_pictures(result: Fleet, picture: str | None, report: str | None) -> N
         say(f"wrote {picture}")
     if report is not None:
         from stribeck.cli.pages import command_line, save_page
-        from stribeck.report.fleet_page import fleet_page
+        from stribeck.report.pages.fleet import fleet_page
 
         save_page(fleet_page(result, command_line(), with_flags), report)

@@ -17,7 +17,7 @@ from stribeck.fitting.result import Fit
 from stribeck.models.rigid_body import own_load
 from stribeck.passivity.certificate import Certificate
 from stribeck.passivity.check import check
-from stribeck.report.account import (
+from stribeck.report.pages.account import (
     Account,
     of_comparison,
     of_diagnosis,
@@ -58,7 +58,7 @@ def improvement_report(improvement: Improvement, path: str | None) -> None:
 def write_account(account: Account, path: str) -> None:
     """Write the page of an account, with the command that is running and the proof of passivity."""
     # Bokeh is slow to import.
-    from stribeck.report.page import account_page
+    from stribeck.report.pages.recording import account_page
 
     made = account.made_by(command_line(), proof(account.final))
     save_page(account_page(made, with_flags), path)

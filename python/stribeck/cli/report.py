@@ -30,8 +30,8 @@ from stribeck.diagnosis.loop.improve import improve
 from stribeck.fitting.result import Fit
 from stribeck.projects.project import Project
 from stribeck.recording.options import ReadOptions
-from stribeck.report.account import error_of, of_improvement, of_project
 from stribeck.report.improvement import summary_sentence
+from stribeck.report.pages.account import error_of, of_improvement, of_project
 
 #: Bytes from which the kind of a file shows.
 _HEAD = 4096

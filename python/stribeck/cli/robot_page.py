@@ -16,7 +16,7 @@ def robot_report(
     if path is None:
         return
     # Bokeh is slow to import.
-    from stribeck.report.robot_page import (
+    from stribeck.report.pages.robot import (
         robot_comparison_page,
         robot_diagnosis_page,
         robot_fit_page,

@@ -105,7 +105,7 @@ def study(
     if report is not None:
         # Bokeh is slow to import.
         from stribeck.cli.pages import command_line, save_page
-        from stribeck.report.study_page import study_page
+        from stribeck.report.pages.study import study_page
 
         save_page(study_page(result, command_line()), report)
     echo_result(_judged(result, evaluate, reading), as_json)

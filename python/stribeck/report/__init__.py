@@ -11,157 +11,157 @@ RENDERERS: dict[str, dict[str, str]] = {
     "stribeck.recording.recording:Recording": {
         "text": "recording:recording_text",
         "figure": "recording_figure:recording_figure",
-        "notebook": "notebook:recording_view",
+        "notebook": "notebooks.results:recording_view",
     },
     "stribeck.diagnosis.inspect:Inspection": {
         "text": "inspection:inspection_text",
-        "notebook": "notebook_tables:inspection_view",
+        "notebook": "notebooks.tables:inspection_view",
     },
     "stribeck.models.model:Model": {
         "text": "model:model_text",
-        "notebook": "notebook_tables:model_view",
+        "notebook": "notebooks.tables:model_view",
     },
     "stribeck.exporters.export:Export": {
         "text": "model:export_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.fitting.result:Fit": {
         "text": "fit:fit_text",
         "figure": "fit:fit_figure",
-        "notebook": "notebook:fit_view",
+        "notebook": "notebooks.results:fit_view",
     },
     "stribeck.robot.arm:Robot": {
         "text": "robot:robot_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.robot.result:RobotFit": {
         "text": "robot:robot_fit_text",
-        "notebook": "notebook_tables:robot_fit_view",
+        "notebook": "notebooks.tables:robot_fit_view",
     },
     "stribeck.robot.follow:RobotTracking": {
         "text": "robot_tracking:robot_tracking_text",
-        "notebook": "notebook_tables:robot_tracking_view",
+        "notebook": "notebooks.tables:robot_tracking_view",
     },
     "stribeck.robot.plan:RobotPlan": {
         "text": "robot:robot_plan_text",
-        "notebook": "notebook_tables:robot_plan_view",
+        "notebook": "notebooks.tables:robot_plan_view",
     },
     "stribeck.robot.compare:RobotComparison": {
         "text": "robot:robot_comparison_text",
-        "notebook": "notebook:frame_view",
+        "notebook": "notebooks.results:frame_view",
     },
     "stribeck.robot.diagnosis:RobotDiagnosis": {
         "text": "robot:robot_diagnosis_text",
-        "notebook": "notebook_tables:robot_diagnosis_view",
+        "notebook": "notebooks.tables:robot_diagnosis_view",
     },
     "stribeck.robot.improve:RobotImprovement": {
         "text": "robot:robot_improvement_text",
-        "notebook": "notebook_tables:robot_improvement_view",
+        "notebook": "notebooks.tables:robot_improvement_view",
     },
     "stribeck.fitting.methods.arm:ArmFit": {
         "text": "methods:arm_text",
-        "notebook": "notebook:frame_view",
+        "notebook": "notebooks.results:frame_view",
     },
     "stribeck.fitting.protocols.points:BristleStiffness": {
         "text": "methods:stiffness_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.fitting.transmission.measure:Transmission": {
         "text": "transmission:transmission_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.fitting.methods.steady:SteadyPoints": {
         "text": "methods:points_text",
-        "notebook": "notebook:frame_view",
+        "notebook": "notebooks.results:frame_view",
     },
     "stribeck.passivity.certificate:Certificate": {
         "text": "certificate:certificate_text",
-        "notebook": "notebook_tables:certificate_view",
+        "notebook": "notebooks.tables:certificate_view",
     },
     "stribeck.diagnosis.compare:Comparison": {
         "text": "comparison:comparison_text",
         "figure": "comparison:comparison_figure",
-        "notebook": "notebook:comparison_view",
+        "notebook": "notebooks.results:comparison_view",
     },
     "stribeck.diagnosis.result:Finding": {
         "text": "diagnosis:finding_text",
         "figure": "finding:finding_figure",
-        "notebook": "notebook:finding_view",
+        "notebook": "notebooks.results:finding_view",
     },
     "stribeck.diagnosis.result:Diagnosis": {
         "text": "diagnosis:diagnosis_text",
         "figure": "diagnosis:diagnosis_figure",
-        "notebook": "notebook:diagnosis_view",
+        "notebook": "notebooks.results:diagnosis_view",
     },
     "stribeck.diagnosis.loop.add:Addition": {
         "text": "improvement:addition_text",
-        "notebook": "notebook:addition_view",
+        "notebook": "notebooks.results:addition_view",
     },
     "stribeck.diagnosis.loop.improve:Improvement": {
         "text": "improvement:improvement_text",
         "figure": "improvement_figure:improvement_figure",
-        "notebook": "notebook:improvement_view",
+        "notebook": "notebooks.results:improvement_view",
     },
     "stribeck.motion.simulate.result:Simulation": {
         "text": "simulation:simulation_text",
         "figure": "simulation:simulation_figure",
-        "notebook": "notebook:picture_view",
+        "notebook": "notebooks.results:picture_view",
     },
     "stribeck.motion.simulate.validation:Validation": {
         "text": "simulation:validation_text",
         "figure": "simulation:validation_figure",
-        "notebook": "notebook:picture_view",
+        "notebook": "notebooks.results:picture_view",
     },
     "stribeck.motion.compensate.tracking:Tracking": {
         "text": "compensation:tracking_text",
         "figure": "compensation:tracking_figure",
-        "notebook": "notebook:picture_view",
+        "notebook": "notebooks.results:picture_view",
     },
     "stribeck.motion.compensate.factor:Factor": {
         "text": "compensation:factor_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.motion.compensate.teaching:Teaching": {
         "text": "compensation:teaching_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.motion.design.result:Plan": {
         "text": "design:plan_text",
         "figure": "design:plan_figure",
-        "notebook": "notebook:plan_view",
+        "notebook": "notebooks.results:plan_view",
     },
     "stribeck.scale.streaming.result:StreamedFit": {
         "text": "streaming:streamed_fit_text",
-        "notebook": "notebook:frame_view",
+        "notebook": "notebooks.results:frame_view",
     },
     "stribeck.scale.streaming.diagnosis:StreamedDiagnosis": {
         "text": "streaming:streamed_diagnosis_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.scale.streaming.improvement:StreamedImprovement": {
         "text": "streaming:streamed_improvement_text",
-        "notebook": "notebook_tables:words_view",
+        "notebook": "notebooks.tables:words_view",
     },
     "stribeck.scale.study.result:Study": {
         "text": "study:study_text",
         "figure": "study_figure:error_figure",
         "friction_figure": "study_figure:friction_figure",
-        "notebook": "notebook:frame_view",
+        "notebook": "notebooks.results:frame_view",
     },
     "stribeck.scale.fleet.result:Fleet": {
         "text": "fleet:fleet_text",
         "figure": "fleet_figure:fleet_figure",
-        "notebook": "notebook:fleet_view",
+        "notebook": "notebooks.results:fleet_view",
     },
     "stribeck.projects.project:Project": {
         "text": "project:project_text",
         "figure": "project:project_figure",
-        "notebook": "notebook_tables:project_view",
+        "notebook": "notebooks.tables:project_view",
     },
     "stribeck.projects.sides:Sides": {
         "text": "project:sides_text",
         "figure": "project:sides_figure",
-        "notebook": "notebook:sides_view",
+        "notebook": "notebooks.results:sides_view",
     },
 }
 

@@ -10,11 +10,11 @@ from pathlib import Path
 import pytest
 import stribeck as sb
 from stribeck.models.catalog import catalog
-from stribeck.report.account import of_comparison
 from stribeck.report.diagnosis import diagnosis_summary
-from stribeck.report.equations import beside, symbols
-from stribeck.report.mathml import mathml
-from stribeck.report.page import account_page, diagnosis_page, improvement_page
+from stribeck.report.pages.account import of_comparison
+from stribeck.report.pages.equations import beside, symbols
+from stribeck.report.pages.mathml import mathml
+from stribeck.report.pages.recording import account_page, diagnosis_page, improvement_page
 
 VOID = {"meta", "img", "br", "link", "hr"}
 

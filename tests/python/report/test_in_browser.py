@@ -11,9 +11,9 @@ import pytest
 import stribeck as sb
 from in_chromium import faults, keep, wider
 from stribeck.cli.main import main
-from stribeck.report.account import of_improvement
-from stribeck.report.page import account_page
-from stribeck.report.robot_page import robot_improvement_page
+from stribeck.report.pages.account import of_improvement
+from stribeck.report.pages.recording import account_page
+from stribeck.report.pages.robot import robot_improvement_page
 from stribeck.robot.improve import improve_robot
 from stribeck.robot.motion import RobotMotion
 from synthetic import joint

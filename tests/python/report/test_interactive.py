@@ -7,7 +7,6 @@ import pytest
 import stribeck as sb
 from bokeh.models import LinearAxis
 from bokeh.plotting import figure
-from stribeck.report.account import of_improvement
 from stribeck.report.interactive.correlation import correlation
 from stribeck.report.interactive.decimate import drawn_rows
 from stribeck.report.interactive.falling_error import falling_error
@@ -18,7 +17,8 @@ from stribeck.report.interactive.intervals import intervals
 from stribeck.report.interactive.residual_channel import residual_channel
 from stribeck.report.interactive.samples import Samples, samples_of
 from stribeck.report.interactive.time import residual_time, time
-from stribeck.report.page_figures import account_plots
+from stribeck.report.pages.account import of_improvement
+from stribeck.report.pages.figures import account_plots
 
 
 @pytest.fixture(scope="module")

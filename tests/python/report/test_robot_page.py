@@ -8,14 +8,14 @@ import numpy as np
 from stribeck.report.interactive.base import shown_range
 from stribeck.report.interactive.robot_joint import joint_friction
 from stribeck.report.interactive.robot_samples import robot_samples
-from stribeck.report.page_figures import robot_plots
-from stribeck.report.robot_headline import diagnosis_headline, headline
-from stribeck.report.robot_page import (
+from stribeck.report.pages.figures import robot_plots
+from stribeck.report.pages.robot import (
     robot_comparison_page,
     robot_diagnosis_page,
     robot_fit_page,
     robot_improvement_page,
 )
+from stribeck.report.pages.robot_headline import diagnosis_headline, headline
 from stribeck.robot.compare import compare_robots
 from stribeck.robot.diagnosis import RobotDiagnosis
 from stribeck.robot.fit import fit_robot

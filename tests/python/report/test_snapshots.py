@@ -16,7 +16,7 @@ from stribeck.diagnosis.inspect import inspect
 from stribeck.motion.generate.demo import demo_path, demo_recording
 from stribeck.report.catalog import catalog_text
 from stribeck.report.inspection import inspection_text
-from stribeck.report.page import diagnosis_page, improvement_page
+from stribeck.report.pages.recording import diagnosis_page, improvement_page
 from syrupy.assertion import SnapshotAssertion
 
 

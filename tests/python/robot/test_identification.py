@@ -14,7 +14,7 @@ from stribeck.base.errors import FitError, ModelFileError, RecordingError, SpecE
 from stribeck.cli.main import cli
 from stribeck.motion.design.motion import Limits, SampledMotion
 from stribeck.recording.options import ReadOptions
-from stribeck.report.robot_page import robot_fit_page
+from stribeck.report.pages.robot import robot_fit_page
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.consistent import inertial_of, pseudo_inertia

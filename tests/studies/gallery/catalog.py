@@ -6,10 +6,10 @@ import stribeck as sb
 from stribeck.effect.describe import base_of
 from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import catalog, effect_ids
-from stribeck.report.equations import CONSTANTS, SYMBOLS, equations
-from stribeck.report.mathml import mathml
 from stribeck.report.numbers import listed, unit_text
-from stribeck.report.prose import unit
+from stribeck.report.pages.equations import CONSTANTS, SYMBOLS, equations
+from stribeck.report.pages.mathml import mathml
+from stribeck.report.pages.prose import unit
 
 INTRODUCTION = """# Effect gallery
 

@@ -10,10 +10,10 @@ from pathlib import Path
 
 import stribeck as sb
 from stribeck.models.catalog import catalog, effect_ids
-from stribeck.report.equations import SYMBOLS, equations
-from stribeck.report.mathml import mathml
 from stribeck.report.numbers import listed, unit_text
-from stribeck.report.prose import unit
+from stribeck.report.pages.equations import SYMBOLS, equations
+from stribeck.report.pages.mathml import mathml
+from stribeck.report.pages.prose import unit
 
 PAGE = Path(__file__).resolve().parents[3] / "docs/law_catalog.md"
 INTRODUCTION = """# Catalog of laws

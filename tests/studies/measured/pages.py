@@ -15,7 +15,6 @@ from pathlib import Path
 
 import stribeck as sb
 from stribeck.cli.pages import proof
-from stribeck.report.account import of_improvement
 from stribeck.report.diagnosis import (
     carried_sentence,
     doubts,
@@ -24,7 +23,8 @@ from stribeck.report.diagnosis import (
 )
 from stribeck.report.improvement import stopped_sentence, summary_sentence
 from stribeck.report.numbers import change_text, confidence_words, percent, plain
-from stribeck.report.page import account_page
+from stribeck.report.pages.account import of_improvement
+from stribeck.report.pages.recording import account_page
 from stribeck.report.parameters import parameter_rows
 from stribeck.report.unexplained import left_text
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from html import escape, unescape
 
-from stribeck.report.prose import SPACE, prose, unit
+from stribeck.report.pages.prose import SPACE, prose, unit
 
 #: What is not text: code, formulas, drawings, and every tag.
 _NOT_TEXT = re.compile(

@@ -12,7 +12,7 @@ from stribeck.base.files import png_bytes, write_bytes_whole, write_whole
 from stribeck.base.replaceable import check_own
 from stribeck.benchmark.reproduce.result import Reproduction
 from stribeck.benchmark.reproduce.text import HEADING, cells, reasons, verdict
-from stribeck.report.page import render
+from stribeck.report.pages.recording import render
 
 
 def reproduction_page(made: Reproduction, drawn: Sequence[bytes]) -> str:

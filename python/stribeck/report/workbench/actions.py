@@ -24,8 +24,8 @@ from stribeck.recording.load import read_with
 from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
 from stribeck.recording.scan import FileColumn
-from stribeck.report.account import of_project
-from stribeck.report.page import account_page
+from stribeck.report.pages.account import of_project
+from stribeck.report.pages.recording import account_page
 from stribeck.report.workbench.work import Telling
 from stribeck.robot.describe import read_robot
 from stribeck.robot.improve import improve_robot as improve_joints
@@ -202,7 +202,7 @@ def page_of(tell: Telling, project: Project, command: str) -> str:
 def improve_robot(tell: Telling, files: Files, described: str, options: ReadOptions) -> RobotPage:
     """Identify a whole robot and add what its joints lack; returns the page of it."""
     # matplotlib is slow to import.
-    from stribeck.report.robot_page import robot_improvement_page
+    from stribeck.report.pages.robot import robot_improvement_page
 
     tell("said", "Reading all joints")
     motion = read_motion(read_robot(described), files, replace(options, joint=None))

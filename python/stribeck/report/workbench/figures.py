@@ -17,7 +17,7 @@ from stribeck.report.interactive.findings import findings
 from stribeck.report.interactive.planned import planned
 from stribeck.report.interactive.samples import Samples, samples_of
 from stribeck.report.interactive.time import residual_time
-from stribeck.report.page_figures import parameter_plots, sample_plots
+from stribeck.report.pages.figures import parameter_plots, sample_plots
 from stribeck.report.workbench.controller import Workbench
 
 if TYPE_CHECKING:

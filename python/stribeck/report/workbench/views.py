@@ -30,10 +30,10 @@ from stribeck.report.diagnosis import (
 from stribeck.report.finding_view import how_to_read
 from stribeck.report.interactive.base import AXES_SPAN
 from stribeck.report.numbers import change_text, confidence_words, percent, plain, thousands, typed
-from stribeck.report.page import comparison_tables
+from stribeck.report.pages.prose import prose, unit
+from stribeck.report.pages.recording import comparison_tables
 from stribeck.report.parameters import parameter_rows
 from stribeck.report.project import branches
-from stribeck.report.prose import prose, unit
 from stribeck.report.recording import scored_sentence, state_of
 from stribeck.report.unexplained import left_after
 from stribeck.report.workbench.controller import PROJECT, Workbench

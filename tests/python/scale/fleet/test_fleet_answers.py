@@ -183,7 +183,7 @@ def test_figure_of_effects_frames_what_stands_out() -> None:
 
 
 def test_json_text_picture_and_page(fitted: sb.Fleet) -> None:
-    from stribeck.report.fleet_page import fleet_page
+    from stribeck.report.pages.fleet import fleet_page
 
     said = fitted.to_dict()
     assert json.loads(json.dumps(said)) == said

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from stribeck.report.diagnosis import untestable_rows
-from stribeck.report.equations import equations
-from stribeck.report.notebook import cell, figures, view
+from stribeck.report.notebooks.results import cell, figures, view
 from stribeck.report.numbers import listed, plain, thousands, unit_text
-from stribeck.report.page import picture_text
-from stribeck.report.page_figures import robot_plots
+from stribeck.report.pages.equations import equations
+from stribeck.report.pages.figures import robot_plots
+from stribeck.report.pages.recording import picture_text
 from stribeck.report.robot import (
     NO_CAUSES,
     added_rows,

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from stribeck.models.catalog import catalog
-from stribeck.report.mathml import mathml
 from stribeck.report.numbers import listed, plain
+from stribeck.report.pages.mathml import mathml
 
 if TYPE_CHECKING:
     from stribeck.models.model import Model

@@ -16,8 +16,15 @@ from stribeck.report.numbers import (
     thousands,
     unit_text,
 )
-from stribeck.report.page import sections_page
-from stribeck.report.page_figures import figures_of, robot_plots
+from stribeck.report.pages.figures import figures_of, robot_plots
+from stribeck.report.pages.recording import sections_page
+from stribeck.report.pages.robot_headline import (
+    comparison_headline,
+    diagnosis_headline,
+    fit_headline,
+    improvement_headline,
+)
+from stribeck.report.pages.sections import Section
 from stribeck.report.parameters import interval_text, parameter_rows
 from stribeck.report.robot import (
     NO_CAUSES,
@@ -30,14 +37,7 @@ from stribeck.report.robot import (
     evaluated_rows,
     lacking_rows,
 )
-from stribeck.report.robot_headline import (
-    comparison_headline,
-    diagnosis_headline,
-    fit_headline,
-    improvement_headline,
-)
 from stribeck.report.robot_payload import drive_gains_rows, payload_sentence
-from stribeck.report.sections import Section
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -11,12 +11,10 @@ import numpy as np
 from stribeck.base.files import png_bytes
 from stribeck.effect.describe import physically
 from stribeck.models.catalog import catalog
-from stribeck.report.account import Account, Step, error_of, of_diagnosis, of_improvement
 from stribeck.report.certificate import certificate_parts
 from stribeck.report.channels import torque_name
 from stribeck.report.comparison import MARKED, REGIMES_LEGEND, compared, criteria, overview_rows
 from stribeck.report.diagnosis import less_likely_sentence, untestable_rows
-from stribeck.report.equations import beside, equations, symbols
 from stribeck.report.finding_view import how_to_read
 from stribeck.report.fit import ASSUMED, PASSIVITY
 from stribeck.report.interactive.base import AXES_SPAN
@@ -32,9 +30,13 @@ from stribeck.report.numbers import (
     thousands,
     unit_text,
 )
-from stribeck.report.page_figures import Figures, account_plots, figures_of
+from stribeck.report.pages.account import Account, Step, error_of, of_diagnosis, of_improvement
+from stribeck.report.pages.equations import beside, equations, symbols
+from stribeck.report.pages.figures import Figures, account_plots, figures_of
+from stribeck.report.pages.prose import prose, unit
+from stribeck.report.pages.sections import Section, numbers
+from stribeck.report.pages.versions import versions
 from stribeck.report.parameters import interval_text, parameter_rows
-from stribeck.report.prose import prose, unit
 from stribeck.report.recording import (
     REGIMES,
     file_name,
@@ -42,8 +44,6 @@ from stribeck.report.recording import (
     scored_sentence,
     state_of,
 )
-from stribeck.report.sections import Section, numbers
-from stribeck.report.versions import versions
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

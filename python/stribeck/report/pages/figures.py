@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from bokeh.plotting import figure
 
     from stribeck.fitting.result import Fit
-    from stribeck.report.account import Account
+    from stribeck.report.pages.account import Account
     from stribeck.robot.result import RobotFit
 
 #: Correlations of fewer parameters than this are no figure.

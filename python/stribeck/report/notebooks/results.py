@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Protocol
 from markupsafe import Markup
 
 from stribeck.base.shown import Plotted
-from stribeck.report.account import Account, of_comparison, of_diagnosis, of_improvement
 from stribeck.report.fleet import heading
-from stribeck.report.fleet_page import fleet_plots
 from stribeck.report.interactive.channels_time import RecordingSamples, channels_time
 from stribeck.report.interactive.finding_residual import finding_residual
 from stribeck.report.interactive.planned import planned
 from stribeck.report.interactive.samples import CHANNELS
 from stribeck.report.numbers import change_text, confidence_words, plain
-from stribeck.report.page import parameter_table, picture_text, render
-from stribeck.report.page_figures import NO_FIGURES, Figures, account_plots, figures_of
+from stribeck.report.pages.account import Account, of_comparison, of_diagnosis, of_improvement
+from stribeck.report.pages.figures import NO_FIGURES, Figures, account_plots, figures_of
+from stribeck.report.pages.fleet import fleet_plots
+from stribeck.report.pages.recording import parameter_table, picture_text, render
 from stribeck.report.recording import scored_sentence
 
 if TYPE_CHECKING:

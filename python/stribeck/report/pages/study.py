@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from stribeck.base.errors import joint_called
 from stribeck.report.interactive.study_errors import study_errors
 from stribeck.report.numbers import MINUS, plain
-from stribeck.report.page import sections_page
-from stribeck.report.page_figures import figures_of
-from stribeck.report.sections import Section
+from stribeck.report.pages.figures import figures_of
+from stribeck.report.pages.recording import sections_page
+from stribeck.report.pages.sections import Section
 from stribeck.report.study import error_rows, heading_sentence, note_lines
 
 if TYPE_CHECKING:

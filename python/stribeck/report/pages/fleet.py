@@ -22,9 +22,9 @@ from stribeck.report.fleet import (
 from stribeck.report.fleet_figure import with_friction
 from stribeck.report.interactive.fleet_changes import fleet_changes
 from stribeck.report.interactive.fleet_effects import fleet_effects
-from stribeck.report.page import sections_page
-from stribeck.report.page_figures import figures_of
-from stribeck.report.sections import Section
+from stribeck.report.pages.figures import figures_of
+from stribeck.report.pages.recording import sections_page
+from stribeck.report.pages.sections import Section
 
 if TYPE_CHECKING:
     from bokeh.plotting import figure
