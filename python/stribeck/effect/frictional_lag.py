@@ -18,7 +18,7 @@ from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.free_form import OF_SPEED
 from stribeck.effect.stribeck import SLOW, no_slow_motion
 from stribeck.models.model import Model
-from stribeck.recording.derived_motion import acceleration_cutoff
+from stribeck.recording.derived_motion import cutoff_of
 from stribeck.recording.moves import move_seconds, moves
 from stribeck.recording.recording import Recording
 
@@ -161,8 +161,7 @@ def _cutoff_of_inertia(after: Identified) -> float | None:
     has_inertia = "inertia" in (*model.rigid_body, *model.effects)
     if not r.columns["acceleration"].derived or not (read or has_inertia):
         return None
-    period = r.scales()["sample_period"]
-    return acceleration_cutoff(r.time, r.velocity, r.segment, period, r.cutoff_hz)
+    return cutoff_of(r)
 
 
 EFFECT = Effect(

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.derive import HIGHEST, Smoother, choose_cutoff, motion_band
 
-__all__ = ["BANDS", "acceleration_cutoff", "filter_text", "filtered_noise", "slope"]
+if TYPE_CHECKING:
+    from stribeck.recording.recording import Recording
+
+__all__ = ["acceleration_cutoff", "cutoff_of", "filter_text", "filtered_noise", "slope"]
 
 #: The cut-off of a derived acceleration is at most this many times the band of the motion.
-BANDS = 20.0
+_BANDS = 20.0
 
 
 def slope(time: Floats, value: Floats, segment: Ints) -> tuple[Floats, float | None]:
@@ -62,10 +66,17 @@ def acceleration_cutoff(
         Of the velocity.
     """
     band = motion_band(time, velocity, segment)
-    limits = [x for x in (cutoff, None if band is None else BANDS * band) if x is not None]
+    limits = [x for x in (cutoff, None if band is None else _BANDS * band) if x is not None]
     highest = min(limits, default=None)
     # A cut-off that the samples do not reach is none.
     return None if highest is None or highest >= HIGHEST / typical else highest
+
+
+def cutoff_of(recording: Recording) -> float | None:
+    """The cut-off [Hz] for an acceleration that is derived from a recording; None: no filter."""
+    r = recording
+    period = r.scales()["sample_period"]
+    return acceleration_cutoff(r.time, r.velocity, r.segment, period, r.cutoff_hz)
 
 
 def filter_text(cutoff: float | None) -> str:

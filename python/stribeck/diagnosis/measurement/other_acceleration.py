@@ -11,7 +11,7 @@ from stribeck.diagnosis.measurement.cause import Array, MeasurementCause
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 from stribeck.recording.derive import Smoother
-from stribeck.recording.derived_motion import acceleration_cutoff
+from stribeck.recording.derived_motion import cutoff_of
 from stribeck.recording.mend.load_of_motion import differing, slow_motion
 from stribeck.recording.recording import Recording
 
@@ -43,10 +43,7 @@ def _as_smooth(r: Recording, load: Array) -> Array:
     column = r.columns.get("acceleration")
     if column is None or not column.derived:
         return load
-    cutoff = acceleration_cutoff(
-        r.time, r.velocity, r.segment, r.scales()["sample_period"], r.cutoff_hz
-    )
-    return Smoother(r.time, r.segment, cutoff).smooth(load)
+    return Smoother(r.time, r.segment, cutoff_of(r)).smooth(load)
 
 
 OTHER_ACCELERATION = MeasurementCause(

@@ -40,7 +40,7 @@ def check_turn(view: View) -> Check | None:
     if r.joint_kind != "revolute" or r.load_torque is not None:
         return None
     span = float(np.ptp(r.position))
-    left = _left(r, r.position)
+    left = _sums_left(r, r.position)
     best = min(left, key=lambda unit: left[unit])
     if best == "rad" or span * UNITS[best] < LEAST_TURN * 2.0 * math.pi:
         return None
@@ -58,7 +58,7 @@ def check_turn(view: View) -> Check | None:
     )
 
 
-def _left(r: Recording, position: Floats) -> dict[str, float]:
+def _sums_left(r: Recording, position: Floats) -> dict[str, float]:
     """Sums of squares that friction, an inertia and a weight leave, by the unit of the angle."""
     rows = np.flatnonzero(r.moving)
     rows = rows[:: max(1, rows.size // ROWS)]

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.models.model import Model
-from stribeck.recording.derive import motion_band
-from stribeck.recording.derived_motion import BANDS
+from stribeck.recording.derived_motion import cutoff_of
 from stribeck.recording.recording import Recording
 
-__all__ = ["Margin", "acceleration_band", "smoothed"]
+__all__ = ["Margin", "smoothed"]
 
 #: Memory of a filter in periods of its cut-off frequency (to 1e-10).
 PERIODS = 10.0
@@ -38,7 +37,7 @@ class Margin:
         """
         if not smoothed(model, sample):
             return cls(1, 0)
-        bands = [x for x in (sample.cutoff_hz, acceleration_band(sample)) if x is not None]
+        bands = [x for x in (sample.cutoff_hz, cutoff_of(sample)) if x is not None]
         filters = int(PERIODS * sample.rate_hz / min(bands)) if bands else 8
         state = int(RUN_IN * sample.rate_hz) if model.has_state else 0
         most = MOST
@@ -65,10 +64,3 @@ def _known_inertia(sample: Recording) -> bool:
     """Whether the load torque is computed from the acceleration."""
     load = sample.columns.get("load_torque")
     return load is not None and load.source == "rigid-body terms"
-
-
-def acceleration_band(sample: Recording) -> float | None:
-    """Cut-off of a derived acceleration, Hz, the same as for a recording in memory."""
-    band = motion_band(sample.time, sample.velocity, sample.segment)
-    bands = [x for x in (sample.cutoff_hz, None if band is None else BANDS * band) if x is not None]
-    return min(bands, default=None)

@@ -16,6 +16,7 @@ from stribeck.recording.cells import labels
 from stribeck.recording.channels import Channels, wanted_channels
 from stribeck.recording.computed import apply_formulas
 from stribeck.recording.derive import Smoother
+from stribeck.recording.derived_motion import cutoff_of
 from stribeck.recording.drive import with_drive
 from stribeck.recording.joint_units import settle_units
 from stribeck.recording.loads import measured_torque, rigid_body_load
@@ -24,7 +25,7 @@ from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import segment_rows
 from stribeck.scale.streaming.dataset import DataSet
-from stribeck.scale.streaming.margin import Margin, acceleration_band, smoothed
+from stribeck.scale.streaming.margin import Margin, smoothed
 from stribeck.scale.streaming.motion import MotionChannels
 from stribeck.scale.streaming.runs import numbered
 from stribeck.scale.streaming.sample import CLOCK_RUN, Sample
@@ -130,7 +131,7 @@ class Windows:
         if self.least is not None:
             self.margin = self.margin.at_least(self.least)
         self._smoothed = smoothed(self.model, self.sample.recording)
-        self._band = acceleration_band(self.sample.recording) if self._smoothed else None
+        self._band = cutoff_of(self.sample.recording) if self._smoothed else None
         self._columns = self._read()
 
     def _read(self) -> list[str] | None:
