@@ -11,7 +11,7 @@ from stribeck.recording.arrays import Floats, Ints, bools, floats, floats_or_non
 from stribeck.recording.channels import Channels, Layout
 from stribeck.recording.loads import Loads
 from stribeck.recording.recording import Recording
-from stribeck.recording.rows import SIGMAS
+from stribeck.recording.rows import SIGMAS, predictable
 
 __all__ = ["Clock", "Motion", "complete"]
 
@@ -72,6 +72,9 @@ def complete(
         )
     elif motion.noise_left is not None:
         _propose(data, layout, speed, threshold, SIGMAS * motion.noise_left)
+    # Points of an averaged recording are not beside each other in time.
+    noise = 0.0 if averaged else motion.velocity_noise
+    moving = predictable(motion.velocity, clock.segment, threshold, noise)
     return Recording(
         path=data.path,
         sha256=data.prepared.source.sha256,
@@ -98,7 +101,7 @@ def complete(
         notes=tuple(data.notes),
         velocity_noise=float(motion.velocity_noise),
         velocity_threshold=float(threshold),
-        moving=bools(speed > threshold),
+        moving=bools(moving),
         block=ints(clock.block),
         block_count=clock.block_count,
         rate_hz=clock.rate_hz,

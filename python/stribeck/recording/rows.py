@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 
 from stribeck import _core
-from stribeck.recording.arrays import Floats, Ints
+from stribeck.recording.arrays import Bools, Floats, Ints
 
 __all__ = [
     "BLOCKS",
@@ -17,6 +17,7 @@ __all__ = [
     "held_out_blocks",
     "neighbour",
     "noise_level",
+    "predictable",
     "quantisation_step",
     "segment_rows",
     "segment_slices",
@@ -27,6 +28,8 @@ __all__ = [
 GAP = 5.0
 #: A sample moves when its speed is above this many standard deviations of the velocity noise.
 SIGMAS = 5.0
+#: The direction of a slower sample, in the same standard deviations, is unknown.
+KNOWN = 2.0
 #: A signal that takes each of its values this often on average is a list of settings.
 VISITS = 20
 #: Noise is sought at longer steps in stretches of at least this many samples at that step, and is
@@ -91,6 +94,29 @@ def neighbour(values: Floats, segment: Ints, rows: int) -> Floats:
     """`values` [n] so many `rows` later; the same value beyond the end of a segment."""
     at = np.clip(np.arange(values.size) + rows, 0, values.size - 1)
     return np.where(segment[at] == segment, values[at], values)
+
+
+def predictable(velocity: Floats, segment: Ints, threshold: float, noise: float) -> Bools:
+    """The samples whose friction a model can predict, bool [n].
+
+    They are faster than the `threshold`, and the direction of the samples beside them is known. A
+    torque that is late or early by less than a sample is in part that of the next one: were its
+    sign unknown, one such sample could be wrong by twice the dry friction.
+
+    Parameters
+    ----------
+    noise
+        Standard deviation of the noise of the velocity.
+
+    Examples
+    --------
+    >>> speed = np.array([-1.0, -0.5, 0.01, 0.5, 1.0])
+    >>> predictable(speed, np.zeros(5, dtype=np.int64), threshold=0.1, noise=0.02)
+    array([ True, False, False, False,  True])
+    """
+    unknown = (np.abs(velocity) < min(KNOWN * noise, threshold)).astype(np.float64)
+    beside = [neighbour(unknown, segment, step) > 0.0 for step in (-1, 1)]
+    return (np.abs(velocity) > threshold) & ~np.any(beside, axis=0)
 
 
 def quantisation_step(values: Floats) -> float:

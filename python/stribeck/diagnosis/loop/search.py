@@ -183,14 +183,19 @@ class Search:
                 return grown
         return path
 
-    def _tried(self, path: ImprovementPath, finding: Finding) -> ImprovementPath:
+    def _tried(
+        self, path: ImprovementPath, finding: Finding, *, beside_another: bool = False
+    ) -> ImprovementPath:
         """The path grown beyond a finding on trial, or as it is where that does not stand then.
 
         It may displace an effect that was found before where the whole model predicts better, and
-        give way itself to what was found beside it.
+        give way itself to what was found beside it. Where two effects predict only together even
+        then, one of them is tried `beside_another`, once.
         """
         self.progress(f"adding {finding.effect} on trial{_error_of(finding.fit)}")
         *_, grown = self._ends(path.with_finding(finding))
+        if grown.last.pair is not None and not beside_another:
+            grown = self._tried(grown, grown.last.pair.first, beside_another=True)
         found = [step.finding.effect for step in path.steps]
         kept = grown.holding(finding.effect)
         if kept is None and self._stands(grown) and predicts_better(grown.current, path.current):

@@ -23,7 +23,7 @@ from stribeck.recording.loads import measured_torque, rigid_body_load
 from stribeck.recording.prepared import Prepared
 from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
-from stribeck.recording.rows import segment_rows
+from stribeck.recording.rows import predictable, segment_rows
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.margin import Margin, smoothed
 from stribeck.scale.streaming.motion import MotionChannels
@@ -215,9 +215,7 @@ class Windows:
         time = data.values["time"]
         run = numbered(row, self.sample.starts)
         self._check_time(time, run, row)
-        segment, dt = run, np.zeros_like(time)
-        if self._smoothed or self.least is not None:
-            segment, dt, _ = segment_rows(time, run, row)
+        segment, dt, _ = segment_rows(time, run, row)
         if self._smoothed:
             motion = MotionChannels.filtered(
                 data, Smoother(time, segment, sample.cutoff_hz), self._band
@@ -233,7 +231,9 @@ class Windows:
         elif self._smoothed:
             load_smooth = Smoother(time, segment, sample.cutoff_hz).smooth(load)
         every = data.prepared.settings.rows == "all"
-        moving = np.abs(motion.velocity) > sample.velocity_threshold
+        moving = predictable(
+            motion.velocity, segment, sample.velocity_threshold, sample.velocity_noise
+        )
         made = replace(
             sample,
             time=time,
