@@ -28,6 +28,7 @@ from stribeck.recording.reference import check_reference, load_reference, with_r
 from stribeck.recording.repeated_motion import held_out_together
 from stribeck.recording.sampled import sampled
 from stribeck.recording.samples import check_size, check_time, drop_missing, in_runs
+from stribeck.recording.speeds_once import held_out_in_turn
 from stribeck.recording.torque_at import guess_torque_at
 from stribeck.recording.unused import unused_numbers
 from stribeck.recording.weights import check_scored_weights
@@ -74,7 +75,7 @@ def build(
     made = replace(made, checks=(*data.doubts, *checked(made, prepared, data.rows)))
     made = settled(made, data, standstill=standstill)
     if prepared.settings.hold_out is None:
-        return held_out_together(made)
+        return held_out_together(held_out_in_turn(made))
     return with_hold_out(made, prepared, data.rows, prepared.settings.hold_out, layout)
 
 

@@ -1,4 +1,4 @@
-"""Rules: dry friction, friction under load and inertia are not negative."""
+"""Rules: friction, its dry part, friction under load and inertia are not negative."""
 
 from __future__ import annotations
 
@@ -16,51 +16,67 @@ from stribeck.models.parts import friction_parts
 
 #: Standard errors by which a value must be negative.
 BEYOND = 1.96
-#: Share of the samples in which dry friction may be negative, and its size there as a share of the
+#: What must not be negative.
+DRY, WHOLE = "dry friction", "friction"
+#: Share of the samples in which friction may be negative, and its size there as a share of the
 #: largest: the shape of an effect by a few waves or powers is not exact.
-SHARE, SIZE = 0.01, 0.05
+SHARE = 0.01
+SIZE = {DRY: 0.05, WHOLE: 0.02}
 #: Part of the friction under load, as RMS, that may be negative in one quadrant.
 DRIVING = 0.1
-#: Samples on which dry friction is looked at.
+#: Samples on which friction is looked at.
 ROWS = 2000
 
 
 def negative_friction(claim: Claim) -> str | None:
-    """Why the model's dry friction is negative; None where it is not, or may not be."""
-    fit = claim.after
+    """Why the model's friction, or its dry part, is negative; None where none is, or may not be."""
+    unit = claim.after.model.load_unit
+    for what in (DRY, WHOLE):
+        if (least := _least(claim.after, what)) is not None:
+            return f"{what} would be negative, down to {number(least)} {unit}"
+    return None
+
+
+def _least(fit: Fit, what: str) -> float | None:
+    """The least friction along the motion, if it is negative beyond its standard error."""
     if fit.model.by_formula:
         return None
     rows = fit.rows[:: -(-fit.rows.size // ROWS)]
     try:
-        dry = _dry(fit, fit.model, rows)
+        friction = _along(fit, fit.model, rows, what)
     except StribeckError:
         return None
-    least = float(np.quantile(dry, SHARE))
-    if least >= -SIZE * float(np.quantile(np.abs(dry), 1.0 - SHARE)):
+    least = float(np.quantile(friction, SHARE))
+    if least >= -SIZE[what] * float(np.quantile(np.abs(friction), 1.0 - SHARE)):
         return None
-    if float(np.quantile(dry + BEYOND * _error(fit, rows, dry), SHARE)) >= 0.0:
-        return None
-    return f"dry friction would be negative, down to {number(least)} {fit.model.load_unit}"
+    reach = BEYOND * _error(fit, rows, friction, what)
+    return None if float(np.quantile(friction + reach, SHARE)) >= 0.0 else least
 
 
-def _dry(fit: Fit, model: Model, rows: NDArray[np.intp]) -> Array:
-    """Dry friction of some samples, array [m]."""
-    return friction_parts(model, fit.recording, fit.load_torque, rows)["dry"]
+def _along(fit: Fit, model: Model, rows: NDArray[np.intp], what: str) -> Array:
+    """Friction of some samples against the motion, or its dry part, array [m]."""
+    parts = friction_parts(model, fit.recording, fit.load_torque, rows)
+    if what == DRY:
+        return parts["dry"]
+    return parts["dry"] + np.sign(fit.recording.velocity[rows]) * parts["rate"]
 
 
-def _error(fit: Fit, rows: NDArray[np.intp], dry: Array) -> Array:
-    """Standard error of dry friction, array [m]; zero where the fit has no covariance."""
+def _error(fit: Fit, rows: NDArray[np.intp], friction: Array, what: str) -> Array:
+    """Standard error of such friction, array [m]; zero where the fit has no covariance."""
     if fit.covariance is None:
-        return np.zeros_like(dry)
+        return np.zeros_like(friction)
     covariance = fit.covariance.values
     columns = []
     for k, name in enumerate(fit.covariance.names):
         step = 1e-3 * float(np.sqrt(max(covariance[k, k], 0.0)))
         values = fit.model.values.copy()
         values[fit.model.names.index(name)] += step
-        moved = _dry(fit, fit.model.with_values(values), rows) if step > 0.0 else dry
-        columns.append((moved - dry) / step if step > 0.0 else np.zeros_like(dry))
-    slope = np.column_stack(columns) if columns else np.zeros((dry.size, 0))
+        if step > 0.0:
+            moved = _along(fit, fit.model.with_values(values), rows, what)
+            columns.append((moved - friction) / step)
+        else:
+            columns.append(np.zeros_like(friction))
+    slope = np.column_stack(columns) if columns else np.zeros((friction.size, 0))
     return np.sqrt(np.maximum(np.sum((slope @ covariance) * slope, axis=1), 0.0))
 
 

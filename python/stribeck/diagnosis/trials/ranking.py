@@ -247,9 +247,11 @@ def finding_of(
     """The finding that a trial is, indistinguishable from `others`."""
     names = alike(trial.effect, before, trial.fit)
     more = tuple(name for name in names if name not in others)
+    # What no motion like this can tell apart is as likely, however its error compares.
+    most = 1.0 / (1 + len(names))
     return Finding(
         effect=trial.effect,
-        weight=weight / (1 + len(more)),
+        weight=min(weight / (1 + len(more)), most),
         certainty=difference(before, trial.fit).certainty,
         rmse_held_out_before=float(before.rmse_held_out or np.nan),
         rmse_held_out_after=float(trial.fit.rmse_held_out or np.nan),

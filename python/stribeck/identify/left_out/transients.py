@@ -8,7 +8,8 @@ A drive train, an inertia or a delay causes large errors wherever the joint acce
 error of a stretch is therefore compared with that of the stretches of similar acceleration too.
 
 A flexible model is wrong where the motion goes beyond the rest. A stretch that a model of a few
-columns explains as well as a flexible one explains the others is no transient either.
+columns explains as well as a flexible one explains the others is no transient either, nor are the
+fastest passes of a friction map, to which every model of the others is extrapolated.
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ OUTLIER_FILTERED, OUTLIER_RAW = 4.0, 3.0
 SIMILAR = 5
 #: It is none if the error of the simple model there is at most this many times that median.
 USUAL = 1.75
+#: Quantiles of the speed of a window: what a quarter of it exceeds, and its highest.
+UPPER, HIGHEST = 0.75, 0.99
 #: Most transients; what happens more often needs an explanation.
 STRETCHES = 3
 
@@ -105,6 +108,7 @@ def transient_rows(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
     ).astype(np.uint32)
     similar = _similar(_levels(recording.acceleration_smooth, window, moving))
+    faster = _faster_than_slower_ones(np.abs(recording.velocity), window, moving)
     marked = none
     for _ in range(4):
         kept = moving & ~marked
@@ -112,6 +116,7 @@ def transient_rows(
             _left_out(part, target, window, moving, kept) for part in (columns, simple)
         )
         outlier, unlike = _outliers(recording, by_flexible, by_simple, window, moving, similar)
+        outlier, unlike = outlier & ~faster, unlike & ~faster
         again = moving & unlike[window]
         frequent = np.count_nonzero(np.diff(outlier.astype(int), prepend=0) == 1) > STRETCHES
         many = (moving & outlier[window]).sum() > MOST * moving.sum()
@@ -152,6 +157,22 @@ def _levels(values: Array, window: NDArray[np.uint32], moving: NDArray[np.bool_]
     count = np.bincount(window[moving], minlength=WINDOWS)
     square = np.bincount(window[moving], values[moving] ** 2, WINDOWS)
     return np.asarray(np.sqrt(square / np.maximum(count, 1)))
+
+
+def _faster_than_slower_ones(
+    speed: Array, window: NDArray[np.uint32], moving: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """Windows a quarter of which is faster than the slower windows ever are, bool [WINDOWS]."""
+    upper, highest = np.zeros(WINDOWS), np.zeros(WINDOWS)
+    for w in range(WINDOWS):
+        own = speed[moving & (window == w)]
+        if own.size:
+            upper[w], highest[w] = np.quantile(own, (UPPER, HIGHEST))
+    order = np.argsort(upper, kind="stable")
+    slower = np.maximum.accumulate(highest[order])
+    faster = np.zeros(WINDOWS, dtype=bool)
+    faster[order[1:]] = upper[order[1:]] > slower[:-1]
+    return faster
 
 
 def _similar(acceleration: Array) -> NDArray[np.intp]:

@@ -25,6 +25,7 @@ from stribeck.recording.repeated_motion import held_out_together
 from stribeck.recording.rows import MANY_RUNS
 from stribeck.recording.several.agree import check_agreement
 from stribeck.recording.several.part import Part, joined_values
+from stribeck.recording.speeds_once import held_out_in_turn
 
 __all__ = ["join", "joined_hash"]
 
@@ -68,7 +69,7 @@ def join(parts: Sequence[Part], path: str, *, standstill: bool = False) -> Recor
         made = replace(made, block=ints(block), block_count=len(parts))
     hold_out = data.prepared.settings.hold_out
     if hold_out is None:
-        return held_out_together(made)
+        return held_out_together(held_out_in_turn(made))
     return with_hold_out(made, data.prepared, data.rows, hold_out, layout)
 
 

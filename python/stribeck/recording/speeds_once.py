@@ -1,0 +1,61 @@
+"""Held-out blocks of a recording that passes its highest speeds in one of them.
+
+A friction map passes one speed after another. A model that is fitted without the tenth of the
+fastest passes is extrapolated to them, so that no part of it which depends on the speed would be
+determined. Such a recording is cut into shorter stretches, which are dealt to the blocks in turn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from stribeck.recording.arrays import Bools, Floats, Ints, ints
+from stribeck.recording.recording import Recording
+from stribeck.recording.rows import BLOCKS
+
+__all__ = ["held_out_in_turn"]
+
+#: Stretches of a recording, the first number that suffices, and the fewest samples of one.
+_STRETCHES, _LEAST = (100, 300, 1000), 20
+#: Quantile of the speed that stands for the highest of a block.
+_HIGHEST = 0.999
+
+
+def held_out_in_turn(recording: Recording) -> Recording:
+    """A checked recording in which no held-out block has the highest speeds for itself.
+
+    As it is where none has, or where no dealing of stretches changes that.
+    """
+    r = recording
+    if r.averaged or not _has_speeds_of_its_own(np.abs(r.velocity), r.moving, r.block):
+        return recording
+    for count in _STRETCHES:
+        block = _dealt(r.dt, count)
+        if r.time.size < count * _LEAST:
+            break
+        if not _has_speeds_of_its_own(np.abs(r.velocity), r.moving, block):
+            note = (
+                f"one tenth of the recording has its highest speeds for itself: {count} stretches "
+                f"are held out in turn, so that each of ten groups has a part of them"
+            )
+            return replace(r, block=ints(block), block_count=BLOCKS, notes=(*r.notes, note))
+    return recording
+
+
+def _has_speeds_of_its_own(speed: Floats, moving: Bools, block: Ints) -> bool:
+    """Whether a block is usually faster than the others ever are."""
+    for b in np.unique(block[moving]):
+        own, others = speed[moving & (block == b)], speed[moving & (block != b)]
+        if others.size and np.median(own) > np.quantile(others, _HIGHEST):
+            return True
+    return False
+
+
+def _dealt(dt: Floats, count: int) -> Ints:
+    """Blocks of `count` stretches of equal duration in turn, [n]."""
+    typical = float(np.median(dt[dt > 0.0])) if np.any(dt > 0.0) else 1.0
+    clock = np.cumsum(np.where(dt > 0.0, dt, typical))
+    stretch = np.minimum((clock / clock[-1] * count).astype(np.int64), count - 1)
+    return np.asarray(stretch % BLOCKS)
