@@ -2,7 +2,8 @@
 
 An effect whose values are impossible only imitates another cause: it is not claimed. One that too
 few events or samples carry, or only with the most extreme shape, or that has another size in
-another condition, may be right, but this recording cannot show it: it is demoted.
+another condition, or leaves much where it acts, may be right, but this recording cannot show it: it
+is demoted.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import dataclass, replace
 from stribeck.diagnosis.plausibility.cancelling import cancelling
 from stribeck.diagnosis.plausibility.claim import Claim, first_reason
 from stribeck.diagnosis.plausibility.few_events import few_events, one_event
+from stribeck.diagnosis.plausibility.leaves_more import leaves_more
 from stribeck.diagnosis.plausibility.negative import (
     negative_friction,
     negative_inertia,
@@ -47,7 +49,7 @@ IMPOSSIBLE: tuple[Rule, ...] = (
 #: Nor is one with which another effect of the model breaks one of these.
 OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved, out_of_reach)
 #: One that breaks one of these is demoted.
-WEAK: tuple[Rule, ...] = (few_events, one_event, few_samples, shape_at_bound, uneven)
+WEAK: tuple[Rule, ...] = (few_events, one_event, few_samples, shape_at_bound, uneven, leaves_more)
 
 #: The highest confidence of a demoted finding: as likely as not.
 DEMOTED = 0.5

@@ -1,0 +1,47 @@
+"""Rule: where an effect acts, it leaves no more than it leaves elsewhere.
+
+A delay, or the twist of a drive train, has a torque of one shape. What happens once after each
+reversal, such as a shock of backlash or a late start, is lowered by that torque and not explained:
+where the effect acts most of the error remains, and it is far larger than that of other samples.
+Friction that is missing beside it may leave as much. Then that is found first.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stribeck.diagnosis.carrying import fewest
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.effect.base import number
+from stribeck.effect.describe import acts_in_shocks, is_friction
+
+#: Share of the squared error that an effect must explain where it acts, and how many times as large
+#: as elsewhere the error may be that it leaves there.
+EXPLAINED, LEFT = 0.75, 3.0
+#: RMS of normal noise as a multiple of the median of its size.
+NORMAL = 1.4826
+
+
+def leaves_more(claim: Claim) -> str | None:
+    """How much remains where the effect acts; None where it explains most of that.
+
+    Friction is none of these causes. A shock has a shape of its own.
+    """
+    if is_friction(claim.effect) or acts_in_shocks(claim.effect):
+        return None
+    changed = claim.change**2
+    acts = np.argsort(-changed, kind="stable")[: fewest(changed)]
+    without, along = (
+        claim.before.weighted(fit.held_out_residual[claim.rows])
+        for fit in (claim.before, claim.after)
+    )
+    usual = NORMAL * float(np.median(np.abs(along)))
+    square_without, square_along = (float(np.sum(x[acts] ** 2)) for x in (without, along))
+    noise = acts.size * usual**2
+    left = np.sqrt(square_along / noise) if noise > 0.0 else 0.0
+    if left <= LEFT or square_without - square_along >= EXPLAINED * (square_without - noise):
+        return None
+    return (
+        f"where it acts, the error remains {number(left, 2)} times as large as elsewhere: another "
+        f"cause acts there"
+    )
