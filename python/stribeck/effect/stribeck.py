@@ -13,7 +13,6 @@ from stribeck.effect.base import (
     ResidualView,
     number,
 )
-from stribeck.effect.direction import one_direction
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.free_form import OF_SPEED
 from stribeck.models.model import Model
@@ -34,23 +33,20 @@ NO_COULOMB = 0.01
 
 
 def no_slow_motion(facts: RecordingFacts) -> Obstacle | None:
-    """Slow motion in both directions is missing."""
-    if (only := one_direction(facts)) is not None:
-        return only
+    """Slow motion is missing in a direction in which the joint moves."""
     top = facts.top_speed
     slow = facts.speed < SLOW * top
-    fewest = min(
-        int(np.count_nonzero(slow & (facts.velocity > 0))),
-        int(np.count_nonzero(slow & (facts.velocity < 0))),
-    )
+    signs = (1.0, -1.0) if facts.both_directions else (np.sign(facts.forward - 0.5),)
+    fewest = min(int(np.count_nonzero(slow & (sign * facts.velocity > 0))) for sign in signs)
     averaged = facts.recording.averaged
     needed = max(FEWEST_SLOW_POINTS if averaged else FEWEST_SLOW, SHARE_SLOW * facts.speed.size)
     if fewest >= needed or (averaged and fewest >= ENOUGH_SLOW_POINTS):
         return None
+    both = " in both directions" if facts.both_directions else ""
     return Obstacle(
         f"almost no motion is slower than {SLOW * top:.3g} {facts.recording.position_unit}/s "
         f"({SLOW:.0%} of the top speed)",
-        "add slow passes in both directions, down to a few per cent of the top speed",
+        f"add slow passes{both}, down to a few per cent of the top speed",
     )
 
 

@@ -109,12 +109,18 @@ def _far_neighbours(
 
 
 def _passes_once(fit: Fit) -> bool:
-    """Whether the joint moves at most along its stroke and half of the way back."""
+    """Whether the joint moves at most along its stroke and half of the way back.
+
+    Over several turns it passes each angle once a turn.
+    """
     r = fit.recording
     if r.position is None:
         return False
+    stroke = float(np.ptp(r.position[r.moving]))
+    if r.joint_kind == "revolute" and stroke >= TURNS * 2.0 * np.pi:
+        return False
     travel = float(np.sum(np.abs(r.velocity[r.moving]) * r.dt[r.moving]))
-    return travel < ONCE * float(np.ptp(r.position[r.moving]))
+    return travel < ONCE * stroke
 
 
 def _at_zero(gap: Array, gamma: Array) -> float:

@@ -65,7 +65,7 @@ def _of_late_velocity(recording: Recording, marked: Bools) -> tuple[str, ...]:
 
 def _of_late_torque(recording: Recording, marked: Bools) -> tuple[str, ...]:
     shift = torque_shift(recording)
-    way = "lags behind" if shift > 0 else "leads"
+    way = "lagged behind" if shift > 0 else "led"
     found = (
         (friction_of_rest(recording), "beside a rest may show the friction of that rest"),
         (friction_of_slow_motion(recording), "may show the friction of the reversal beside them"),
@@ -75,6 +75,7 @@ def _of_late_torque(recording: Recording, marked: Bools) -> tuple[str, ...]:
     if not listed:
         return ()
     return (
-        f"the torque {way} the motion by about {1e3 * abs(shift) / recording.rate_hz:.3g} ms: "
+        f"the torque is as if it {way} the motion by about "
+        f"{1e3 * abs(shift) / recording.rate_hz:.3g} ms: "
         f"{', and '.join(listed)}; they are scored, but excluded from the fit",
     )

@@ -54,10 +54,11 @@ def check_torque(view: View) -> Check | None:
     if np.ptp(torque) == 0.0:
         return Check(
             "torque",
-            True,
-            f"cannot check the torque against the motion: the torque "
-            f"('{view.column('torque')}') is {torque[0]:.3g} {view.recording.torque_unit} in every "
-            f"sample, which is no measurement",
+            False,
+            f"the torque ('{view.column('torque')}') is {torque[0]:.3g} "
+            f"{view.recording.torque_unit} in every sample, whatever the motion, which is no "
+            f"measurement",
+            "log the torque or the current of the motor",
         )
     if friction is None:
         return Check(
