@@ -13,9 +13,9 @@ import numpy as np
 
 from stribeck.recording.arrays import Bools, Floats, Ints, ints
 from stribeck.recording.recording import Recording
-from stribeck.recording.rows import BLOCKS
+from stribeck.recording.rows import BLOCKS, MANY_RUNS
 
-__all__ = ["held_out_in_turn"]
+__all__ = ["held_out_in_turn", "passes_speeds_once"]
 
 #: Stretches of a recording, the first number that suffices, and the fewest samples of one.
 _STRETCHES, _LEAST = (100, 300, 1000), 20
@@ -26,10 +26,11 @@ _HIGHEST = 0.999
 def held_out_in_turn(recording: Recording) -> Recording:
     """A checked recording in which no held-out block has the highest speeds for itself.
 
-    As it is where none has, or where no dealing of stretches changes that.
+    As it is where none has, where the blocks are whole runs, or where no dealing of stretches
+    changes that.
     """
     r = recording
-    if r.averaged or not _has_speeds_of_its_own(np.abs(r.velocity), r.moving, r.block):
+    if len(r.run_names) >= MANY_RUNS or not passes_speeds_once(r):
         return recording
     for count in _STRETCHES:
         block = _dealt(r.dt, count)
@@ -42,6 +43,15 @@ def held_out_in_turn(recording: Recording) -> Recording:
             )
             return replace(r, block=ints(block), block_count=BLOCKS, notes=(*r.notes, note))
     return recording
+
+
+def passes_speeds_once(recording: Recording) -> bool:
+    """Whether one tenth of a recording is usually faster than the others ever are."""
+    r = recording
+    if r.averaged:
+        return False
+    tenth = np.arange(r.time.size) * BLOCKS // r.time.size
+    return _has_speeds_of_its_own(np.abs(r.velocity), r.moving, tenth)
 
 
 def _has_speeds_of_its_own(speed: Floats, moving: Bools, block: Ints) -> bool:

@@ -115,7 +115,8 @@ def turning(slow: float, waves: float = 1.7, speed: float = 1.0) -> pl.DataFrame
 
 
 def test_where_no_position_is_passed_twice_a_wave_is_not_called_noise(tmp_path: Path) -> None:
-    floor = noise_floor(sb.fit("coulomb", record(tmp_path, turning(0.5))))
+    part_of_a_turn = turning(0.5, waves=8.0, speed=0.2)
+    floor = noise_floor(sb.fit("coulomb", record(tmp_path, part_of_a_turn)))
     assert floor.value is None and "passes no position twice" in str(floor.why)
     assert not floor.is_reached_by(0.03)
     found = sb.improve("coulomb", record(tmp_path, turning(0.5), "again"))

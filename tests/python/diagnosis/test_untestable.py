@@ -58,11 +58,12 @@ def test_one_direction(tmp_path: Path) -> None:
             acceleration=pl.Series(0.55 * 1.3 * np.cos(1.3 * t)),
         ),
     )
-    assert {"direction", "offset", "stribeck", "position", "presliding"} <= set(found)
+    assert {"direction", "offset", "position", "presliding"} <= set(found)
     assert {"spring", "ripple"} <= set(found)
     assert "move forward" in found["direction"]
     assert "reversals" in found["presliding"]
-    assert "inertia" not in found and "gravity" not in found
+    # Its speed varies, and slow motion is part of it.
+    assert not {"inertia", "gravity", "stribeck"} & set(found)
 
 
 @pytest.mark.parametrize("load", ["constant", "same sign"])

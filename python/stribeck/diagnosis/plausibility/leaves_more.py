@@ -1,9 +1,9 @@
 """Rule: where an effect acts, it leaves no more than it leaves elsewhere.
 
-A delay, or the twist of a drive train, has a torque of one shape. What happens once after each
-reversal, such as a shock of backlash or a late start, is lowered by that torque and not explained:
-where the effect acts most of the error remains, and it is far larger than that of other samples.
-Friction that is missing beside it may leave as much. Then that is found first.
+A delay has a torque of one shape. What happens once after each reversal, such as a shock of
+backlash or a late start, is lowered by that torque and not explained: where the effect acts most of
+the error remains, and it is far larger than that of other samples. Friction that is missing beside
+it may leave as much. Then that is found first.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from stribeck.diagnosis.carrying import fewest
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
-from stribeck.effect.describe import acts_in_shocks, is_friction
+from stribeck.effect.describe import is_drive_train, is_friction
 
 #: Share of the squared error that an effect must explain where it acts, and how many times as large
 #: as elsewhere the error may be that it leaves there.
@@ -25,9 +25,9 @@ NORMAL = 1.4826
 def leaves_more(claim: Claim) -> str | None:
     """How much remains where the effect acts; None where it explains most of that.
 
-    Friction is none of these causes. A shock has a shape of its own.
+    Friction is none of these causes. What a drive train does in a shock is faster than the samples.
     """
-    if is_friction(claim.effect) or acts_in_shocks(claim.effect):
+    if is_friction(claim.effect) or is_drive_train(claim.effect):
         return None
     changed = claim.change**2
     acts = np.argsort(-changed, kind="stable")[: fewest(changed)]

@@ -24,6 +24,7 @@ from stribeck.base import linear
 from stribeck.identify.figures import zero_phase
 from stribeck.identify.normal import NormalEquations
 from stribeck.recording.recording import Recording
+from stribeck.recording.speeds_once import passes_speeds_once
 
 Array = NDArray[np.float64]
 
@@ -108,7 +109,9 @@ def transient_rows(
         np.cumsum(moving) * WINDOWS // max(int(moving.sum()), 1), WINDOWS - 1
     ).astype(np.uint32)
     similar = _similar(_levels(recording.acceleration_smooth, window, moving))
-    faster = _faster_than_slower_ones(np.abs(recording.velocity), window, moving)
+    faster = np.zeros(WINDOWS, dtype=bool)
+    if passes_speeds_once(recording):
+        faster = _faster_than_slower_ones(np.abs(recording.velocity), window, moving)
     marked = none
     for _ in range(4):
         kept = moving & ~marked

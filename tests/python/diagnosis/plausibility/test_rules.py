@@ -310,11 +310,11 @@ def test_a_gain_and_an_offset_that_do_not_change_are_no_warm_up(tmp_path: Path) 
 
 
 def test_a_shape_that_is_needed_at_its_bound(tmp_path: Path) -> None:
-    """Friction with the eighth power of the load; one with its size is not at a bound."""
+    """Friction with the tenth power of the load; one with its size is not at a bound."""
     frame = joint()
     load, v = frame["load_torque"].to_numpy(), frame["velocity"].to_numpy()
     share = np.abs(load) / np.abs(load).max()
-    steep = made(tmp_path, 4.0 * share**8 * np.sign(v), "load", "steep")
+    steep = made(tmp_path, 4.0 * share**10 * np.sign(v), "load", "steep")
     reason = shape_at_bound(steep)
     assert reason is not None and reason.startswith("load_exponent is at its bound 2.5")
     assert shape_at_bound(made(tmp_path, 2.0 * share * np.sign(v), "load", "plain")) is None

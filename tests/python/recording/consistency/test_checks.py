@@ -46,10 +46,11 @@ def test_uneven_time_stamps_are_told(write):
     assert "steps vary" not in _check(read(write(lost)), "time").said
 
 
-def test_a_torque_that_is_the_same_in_every_sample_is_told(write):
+def test_a_torque_that_is_the_same_in_every_sample_is_refused(write):
     constant = read(write(joint(rows=2000).drop("load_torque").with_columns(torque=pl.lit(1.5))))
     assert "is 1.5 N m in every sample" in _check(constant, "torque").said
-    assert sb.improve("coulomb", constant).final.rmse >= 0.0
+    with pytest.raises(RecordingError, match=r"whatever the motion, which is no measurement"):
+        sb.improve("coulomb", constant)
 
 
 @pytest.mark.parametrize("noise", [0.0, 1e-4, 1e-2, 0.3])
