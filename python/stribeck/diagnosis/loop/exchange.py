@@ -182,7 +182,8 @@ def _given_way(
 ) -> list[Exchange]:
     """The exchange of an effect for the simpler one that it contains.
 
-    It is made where the simpler one and an effect of `spoilt` together predict better.
+    It is made where the simpler one and an effect of `spoilt` together predict better: by two
+    standard errors, or by one with no more parameters.
     """
     for simpler in _simpler(finding):
         found = screened(without, simpler, seed=seed)
@@ -195,7 +196,7 @@ def _given_way(
             if trial is None or trial.is_implausible or impossible(_claim(trial, alone.fit)):
                 continue
             worse = difference(current, trial.fit).statistic
-            if worse > TIE:
+            if worse > _least_lead(trial, current):
                 return [Exchange(finding, without, alone, worse)]
     return []
 
@@ -243,7 +244,7 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
     predict alike, it is if its size is known and the other's is not, if it has fewer parameters, or
     if it has as many and is a rigid-body or measurement cause in place of friction.
     """
-    if worse > (TIE if by.parameters > len(current.model.names) else SIMPLEST):
+    if worse > _least_lead(by, current):
         return True
     less_friction = is_friction(finding.effect) and not is_friction(by.effect)
     more_friction = is_friction(by.effect) and not is_friction(finding.effect)
@@ -254,6 +255,11 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
         return known
     fewer = len(current.model.names) - by.parameters
     return fewer > 0 or (fewer == 0 and less_friction)
+
+
+def _least_lead(by: Trial, current: Fit) -> float:
+    """Standard errors by which another model must predict better to be the better one."""
+    return TIE if by.parameters > len(current.model.names) else SIMPLEST
 
 
 def tied(finding: Finding, others: Mapping[str, float]) -> tuple[float, tuple[str, ...]]:
