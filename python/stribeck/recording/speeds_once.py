@@ -19,6 +19,8 @@ __all__ = ["held_out_in_turn", "passes_speeds_once"]
 
 #: Stretches of a recording, the first number that suffices, and the fewest samples of one.
 _STRETCHES, _LEAST = (100, 300, 1000), 20
+#: Blocks that must share the highest speeds.
+_SHARED = 5
 #: Quantile of the speed that stands for the highest of a block.
 _HIGHEST = 0.999
 
@@ -32,17 +34,20 @@ def held_out_in_turn(recording: Recording) -> Recording:
     r = recording
     if len(r.run_names) >= MANY_RUNS or not passes_speeds_once(r):
         return recording
-    for count in _STRETCHES:
-        block = _dealt(r.dt, count)
-        if r.time.size < count * _LEAST:
-            break
-        if not _has_speeds_of_its_own(np.abs(r.velocity), r.moving, block):
-            note = (
-                f"one tenth of the recording has its highest speeds for itself: {count} stretches "
-                f"are held out in turn, so that each of ten groups has a part of them"
-            )
-            return replace(r, block=ints(block), block_count=BLOCKS, notes=(*r.notes, note))
-    return recording
+    possible = [count for count in _STRETCHES if r.time.size >= count * _LEAST]
+    dealt = {count: _dealt(r.dt, count) for count in possible}
+    speed = np.abs(r.velocity)
+    enough = [n for n, block in dealt.items() if _fast_blocks(speed, r.moving, block) >= _SHARED]
+    if not possible:
+        return recording
+    count = enough[0] if enough else possible[-1]
+    if _has_speeds_of_its_own(speed, r.moving, dealt[count]):
+        return recording
+    note = (
+        f"one tenth of the recording has its highest speeds for itself: {count} stretches are held "
+        f"out in turn, in ten groups that share these speeds"
+    )
+    return replace(r, block=ints(dealt[count]), block_count=BLOCKS, notes=(*r.notes, note))
 
 
 def passes_speeds_once(recording: Recording) -> bool:
@@ -61,6 +66,12 @@ def _has_speeds_of_its_own(speed: Floats, moving: Bools, block: Ints) -> bool:
         if others.size and np.median(own) > np.quantile(others, _HIGHEST):
             return True
     return False
+
+
+def _fast_blocks(speed: Floats, moving: Bools, block: Ints) -> int:
+    """The number of blocks that hold samples faster than half of the highest speed."""
+    fast = moving & (speed > 0.5 * np.quantile(speed[moving], _HIGHEST))
+    return int(np.unique(block[fast]).size)
 
 
 def _dealt(dt: Floats, count: int) -> Ints:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from stribeck.effect.describe import physically
+from stribeck.models.catalog import effect_row
 from stribeck.report.channels import torque_name
 from stribeck.report.comparison import noise_floor_sentence
 from stribeck.report.layout import bullets, joined, notes_text, paragraph
@@ -145,13 +146,12 @@ def hedged(finding: Finding, word: str | None = None) -> str:
         Default: what the confidence demands.
     """
     word = hedge(finding.confidence) if word is None else word
+    others = listed(finding.indistinguishable_from, "or")
+    ties = f"this motion cannot tell it from {others}" if others else ""
     if not hedge(finding.confidence):
-        return finding.effect
-    ties = ""
-    if finding.indistinguishable_from:
-        others = listed(finding.indistinguishable_from, "or")
-        ties = f"; this motion cannot tell it from {others}"
-    return f"{word} {finding.effect} ({confidence_text(finding.confidence)}{ties})".strip()
+        return f"{finding.effect} ({ties})" if ties else finding.effect
+    said = "; ".join(filter(None, (confidence_text(finding.confidence), ties)))
+    return f"{word} {finding.effect} ({said})".strip()
 
 
 def nothing_found(last: Diagnosis, spec: str, *, unexplained: bool) -> str:
@@ -248,10 +248,18 @@ def carried_sentence(finding: Finding) -> str:
 
 def indistinguishable_sentence(finding: Finding) -> str:
     """Which other effects may be the cause as well."""
-    return (
-        f"Indistinguishable from {listed(finding.indistinguishable_from, 'or')} on this data. Of "
-        "effects that predict equally well, the simplest is listed first."
-    )
+    others = finding.indistinguishable_from
+    said = f"Indistinguishable from {listed(others, 'or')} on this data."
+    own = _parameters(finding.effect)
+    if any(_parameters(other) < own for other in others):
+        return said
+    return f"{said} Of effects that predict equally well, the simplest is listed first."
+
+
+def _parameters(effect: str) -> int:
+    """The number of parameters of an effect of the catalog; of a formula 0."""
+    row = effect_row(effect)
+    return 0 if row is None else len(row["parameters"])
 
 
 def errors_sentence(diagnosis: Diagnosis) -> str:

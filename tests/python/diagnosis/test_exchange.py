@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.benchmark.cases import Case
 from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop import exchange
 from stribeck.diagnosis.loop.exchange import tied
@@ -123,3 +124,14 @@ def test_confidence_is_shared_with_what_predicts_as_well(tmp_path: Path) -> None
     assert step.finding.indistinguishable_from == ("gravity", "spring")
     # Said once, a tie counts once.
     assert tied(step.finding, {"gravity": 1.0}) == (step.finding.confidence, ("gravity", "spring"))
+
+
+@pytest.mark.slow
+def test_a_lag_of_friction_gives_way_to_an_inertia(tmp_path: Path) -> None:
+    """With the inertia the lag would be shorter than a sample: the curve alone remains."""
+    hidden, late = ("inertia", "stribeck"), ("amplifier_warm_up",)
+    case = Case("two", "closed_loop", hidden, 463168000, 2.0, nuisances=late)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    improved = sb.improve("coulomb", sb.read(tmp_path / "recording.parquet"))
+    named = [step.finding.effect for step in improved.steps]
+    assert named == ["stribeck", "inertia", "warm_up"]

@@ -112,3 +112,15 @@ def test_the_first_of_a_pair_may_be_impossible_alone(tmp_path: Path) -> None:
     assert first is not None and impossible(Claim(first.effect, before, first.fit)) is not None
     named = [step.finding.effect for step in sb.improve("coulomb", recording).steps]
     assert "temperature_viscous" in named
+
+
+@pytest.mark.slow
+def test_a_pair_beside_an_effect_on_trial(tmp_path: Path) -> None:
+    """Drift alone gains little, and the temperature only beside it and with its lag."""
+    hidden = ("drift", "temperature_dry")
+    case = Case("two", "closed_loop", hidden, 462175000, 2.0, nuisances=("lagging_thermometer",))
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    improved = sb.improve("coulomb", sb.read(tmp_path / "recording.parquet"))
+    named = {step.finding.effect for step in improved.steps}
+    assert named == {*hidden, "thermometer_lag"}
+    assert improved.last.verdict == "none"

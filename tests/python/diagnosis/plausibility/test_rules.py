@@ -345,3 +345,11 @@ def test_a_torque_of_twice_the_size_is_claimed(tmp_path: Path) -> None:
     place = 1.5 * np.sin(2.0 * q) * np.sign(v)
     fast = np.abs(v) > np.median(np.abs(v))
     assert uneven(made(tmp_path, place * np.where(fast, 1.0, 0.5), "position")) is None
+
+
+def test_friction_that_would_drive_the_joint_backward(direction: Claim) -> None:
+    """Dry friction is positive, and at speed viscous friction in one direction exceeds it."""
+    viscous = direction.after.model.value("viscous_friction")
+    reason = negative_friction(with_values(direction, direction_viscous=viscous + 6.0))
+    assert reason is not None and reason.startswith("friction would be negative")
+    assert negative_friction(with_values(direction, direction_viscous=viscous)) is None
