@@ -72,9 +72,7 @@ def complete(
         )
     elif motion.noise_left is not None:
         _propose(data, layout, speed, threshold, SIGMAS * motion.noise_left)
-    # Points of an averaged recording are not beside each other in time.
-    noise = 0.0 if averaged else motion.velocity_noise
-    moving = predictable(motion.velocity, clock.segment, threshold, noise)
+    moving = predictable(motion.velocity, motion.velocity_smooth, clock.segment, threshold)
     return Recording(
         path=data.path,
         sha256=data.prepared.source.sha256,

@@ -28,8 +28,6 @@ __all__ = [
 GAP = 5.0
 #: A sample moves when its speed is above this many standard deviations of the velocity noise.
 SIGMAS = 5.0
-#: The direction of a slower sample, in the same standard deviations, is unknown.
-KNOWN = 2.0
 #: A signal that takes each of its values this often on average is a list of settings.
 VISITS = 20
 #: Noise is sought at longer steps in stretches of at least this many samples at that step, and is
@@ -96,25 +94,27 @@ def neighbour(values: Floats, segment: Ints, rows: int) -> Floats:
     return np.where(segment[at] == segment, values[at], values)
 
 
-def predictable(velocity: Floats, segment: Ints, threshold: float, noise: float) -> Bools:
+def predictable(velocity: Floats, smooth: Floats, segment: Ints, threshold: float) -> Bools:
     """The samples whose friction a model can predict, bool [n].
 
-    They are faster than the `threshold`, and the direction of the samples beside them is known. A
-    torque that is late or early by less than a sample is in part that of the next one: were its
-    sign unknown, one such sample could be wrong by twice the dry friction.
+    They are faster than the `threshold`, and the direction of the samples beside them is known: the
+    recorded velocity and the smooth one have the same sign there. A torque that is late or early by
+    less than a sample is in part that of the next one: were its direction unknown, one such sample
+    could be wrong by twice the dry friction.
 
     Parameters
     ----------
-    noise
-        Standard deviation of the noise of the velocity.
+    velocity, smooth
+        As recorded, and behind a zero-phase low-pass, [n].
 
     Examples
     --------
     >>> speed = np.array([-1.0, -0.5, 0.01, 0.5, 1.0])
-    >>> predictable(speed, np.zeros(5, dtype=np.int64), threshold=0.1, noise=0.02)
+    >>> smooth = np.array([-1.0, -0.5, -0.01, 0.5, 1.0])
+    >>> predictable(speed, smooth, np.zeros(5, dtype=np.int64), threshold=0.1)
     array([ True, False, False, False,  True])
     """
-    unknown = (np.abs(velocity) < min(KNOWN * noise, threshold)).astype(np.float64)
+    unknown = (velocity * smooth < 0.0).astype(np.float64)
     beside = [neighbour(unknown, segment, step) > 0.0 for step in (-1, 1)]
     return (np.abs(velocity) > threshold) & ~np.any(beside, axis=0)
 

@@ -58,7 +58,7 @@ def test_every_model_is_scored_on_the_same_rows(
     assert comparison.to_dict()["scored"] == bent.scored()
     threshold = bent.scored()["velocity_threshold"]
     speed = np.abs(bent.velocity)
-    unknown = np.pad(speed < 2.0 * bent.velocity_noise, 1)
+    unknown = np.pad(bent.velocity * bent.velocity_smooth < 0.0, 1)
     expected = (speed > threshold) & ~unknown[:-2] & ~unknown[2:]
     assert np.array_equal(bent.moving, expected)
     assert threshold == pytest.approx(5.0 * bent.velocity_noise, rel=1e-12)

@@ -125,7 +125,7 @@ def test_noise_of_the_velocity(write, sigma):
     assert recording.velocity_threshold == 5 * recording.velocity_noise
     speed = np.abs(recording.velocity)
     # A sample beside one whose direction is unknown is not scored.
-    unknown = np.pad(speed < 2 * recording.velocity_noise, 1)
+    unknown = np.pad(recording.velocity * recording.velocity_smooth < 0, 1)
     known = ~unknown[:-2] & ~unknown[2:]
     np.testing.assert_array_equal(recording.moving, (speed > recording.velocity_threshold) & known)
     scored = recording.scored()

@@ -33,11 +33,10 @@ class Margin:
     def of(cls, model: Model, sample: Recording) -> Margin:
         """Return the margin that `model` needs on data like `sample`.
 
-        One sample before gives the time step, and the directions before and after a sample say
-        whether it is scored; only filters and states need more.
+        One sample before gives the time step; only filters and states need more.
         """
         if not smoothed(model, sample):
-            return cls(1, 1)
+            return cls(1, 0)
         bands = [x for x in (sample.cutoff_hz, cutoff_of(sample)) if x is not None]
         filters = int(PERIODS * sample.rate_hz / min(bands)) if bands else 8
         state = int(RUN_IN * sample.rate_hz) if model.has_state else 0

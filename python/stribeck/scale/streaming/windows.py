@@ -215,7 +215,9 @@ class Windows:
         time = data.values["time"]
         run = numbered(row, self.sample.starts)
         self._check_time(time, run, row)
-        segment, dt, _ = segment_rows(time, run, row)
+        segment, dt = run, np.zeros_like(time)
+        if self._smoothed or self.least is not None:
+            segment, dt, _ = segment_rows(time, run, row)
         if self._smoothed:
             motion = MotionChannels.filtered(
                 data, Smoother(time, segment, sample.cutoff_hz), self._band
@@ -232,7 +234,7 @@ class Windows:
             load_smooth = Smoother(time, segment, sample.cutoff_hz).smooth(load)
         every = data.prepared.settings.rows == "all"
         moving = predictable(
-            motion.velocity, segment, sample.velocity_threshold, sample.velocity_noise
+            motion.velocity, motion.velocity_smooth, segment, sample.velocity_threshold
         )
         made = replace(
             sample,
