@@ -38,6 +38,10 @@ from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
 
+#: Share of what an effect explains alone that it explains beside another one, from which the other
+#: is no tie: both are missing.
+APART = 0.8
+
 
 def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
     """The path with the ties that its last model leaves open.
@@ -139,8 +143,9 @@ class _Others:
         """How well another effect predicts: 1 as well, 0 far worse.
 
         Also 0 where its screening promises less than a share of what the one explains, its values
-        cannot be right, or no structure remains and the one, which has the very form of what is
-        missing, adds to it. A tie of the step, without a `promise`, may have any values.
+        cannot be right, the one explains nearly as much beside it as alone, or no structure remains
+        and the one, which has the very form of what is missing, adds to it. A tie of the step,
+        without a `promise`, may have any values.
         """
         by = self._instead(effect, promise)
         if by is None or self.without is None:
@@ -148,6 +153,8 @@ class _Others:
         if promise > 0.0 and impossible(Claim(effect, self.without, by.fit)) is not None:
             return 0.0
         if self.fits_exactly and self._adds_to(by.fit):
+            return 0.0
+        if self._is_apart_from(by.fit):
             return 0.0
         effects, fits = (self.finding.effect, effect), (self.current, by.fit)
         if is_undecided(effects, fits, self.without, self.structure):
@@ -178,9 +185,24 @@ class _Others:
         left = held_out_square(self.current, self.current)
         return 1.0 - math.sqrt(left / whole) if whole > left else 0.0
 
-    def _adds_to(self, before: Fit) -> bool:
-        """Whether the one explains more than noise beside the effects of a fit."""
+    def _beside(self, before: Fit) -> Trial | None:
+        """The one beside the effects of a fit."""
         effect = before.model.written(self.finding.effect)
         found = screened(before, effect, seed=self.seed)
-        trial = None if found is None else try_effect(before, found)
+        return None if found is None else try_effect(before, found)
+
+    def _adds_to(self, before: Fit) -> bool:
+        """Whether the one explains more than noise beside the effects of a fit."""
+        trial = self._beside(before)
         return trial is not None and trial.evidence.p_value * len(effect_ids()) <= SIGNIFICANCE
+
+    def _is_apart_from(self, other: Fit) -> bool:
+        """Whether the one explains nearly as much beside another effect as without it."""
+        without, trial = self.without, self._beside(other)
+        if without is None or trial is None:
+            return False
+        alone, both = (
+            held_out_square(before, self.current) - held_out_square(after, self.current)
+            for before, after in ((without, self.current), (other, trial.fit))
+        )
+        return alone > 0.0 and both >= APART * alone
