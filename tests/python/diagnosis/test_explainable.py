@@ -35,7 +35,8 @@ def test_beside_the_true_model_it_finds_nothing(with_load: sb.Recording) -> None
     fitted = sb.fit("coulomb+load", with_load)
     could = explainable(fitted)
     assert could is not None and fitted.rmse_held_out is not None
-    assert could.rmse == pytest.approx(fitted.rmse_held_out, rel=0.01)
+    # It may predict a little worse, as it has many more parameters.
+    assert 0.99 * fitted.rmse_held_out < could.rmse < 1.02 * fitted.rmse_held_out
     assert could.share > 0.999
 
 
