@@ -45,15 +45,28 @@ def _drop(remote: DaskFuture) -> None:
 
 
 def _hand_over(fetch: Callable[[], Result], here: Future[Result]) -> None:
-    """Fetch the result of a call that has ended; Dask computes it again where it was lost."""
+    """Fetch the result of a call that has ended; Dask computes it again where it was lost.
+
+    A call is cancelled where the scheduler drops it, or is lost before or while it is fetched.
+    """
     try:
         result = fetch()
     except (CancelledError, CancelledInLoop):
         here.cancel()
         here.set_running_or_notify_cancel()
     except Exception as error:
+        if _is_of_a_closed_connection(error):
+            here.cancel()
         if here.set_running_or_notify_cancel():
             here.set_exception(error)
     else:
         if here.set_running_or_notify_cancel():
             here.set_result(result)
+
+
+def _is_of_a_closed_connection(error: Exception) -> bool:
+    """Whether an error says that the other side has closed the connection."""
+    from distributed.comm.core import CommClosedError
+    from tornado.iostream import StreamClosedError
+
+    return isinstance(error, CommClosedError | StreamClosedError)

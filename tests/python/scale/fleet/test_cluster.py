@@ -97,3 +97,10 @@ def test_a_scheduler_that_is_lost_cannot_drop_a_call(caplog: pytest.LogCaptureFi
     with caplog.at_level(logging.ERROR):
         assert future.cancel()
     assert future.cancelled() and not caplog.records
+
+
+def test_a_connection_that_is_closed_while_a_result_is_fetched_cancels_the_call() -> None:
+    """So that it is told as lost, and not as a call that the worker cannot run."""
+    iostream = pytest.importorskip("tornado.iostream")
+    assert _ended(iostream.StreamClosedError()).cancelled()
+    assert not _ended(OSError("of the call")).cancelled()
