@@ -14,6 +14,7 @@ __all__ = [
     "GAP",
     "MANY_RUNS",
     "SIGMAS",
+    "equal_stretches",
     "held_out_blocks",
     "neighbour",
     "noise_level",
@@ -258,7 +259,15 @@ def held_out_blocks(dt: Floats, segment: Ints, run: Ints, typical: float) -> tup
     if runs >= MANY_RUNS:
         return run.copy(), runs
     count = min(BLOCKS, n)
+    return equal_stretches(dt, typical, count), count
+
+
+def equal_stretches(dt: Floats, typical: float, count: int) -> Ints:
+    """The number of the contiguous stretch of each sample, [n]: `count` of equal recorded duration.
+
+    A gap counts as one `typical` step.
+    """
     step = np.where(dt > 0.0, dt, typical if typical > 0.0 else 1.0)
     clock = np.cumsum(step) - 0.5 * step
     total = float(step.sum())
-    return np.minimum((clock / total * count).astype(np.int64), count - 1), count
+    return np.minimum((clock / total * count).astype(np.int64), count - 1)

@@ -13,7 +13,7 @@ import numpy as np
 
 from stribeck.recording.arrays import Bools, Floats, Ints, ints
 from stribeck.recording.recording import Recording
-from stribeck.recording.rows import BLOCKS, MANY_RUNS
+from stribeck.recording.rows import BLOCKS, MANY_RUNS, equal_stretches
 
 __all__ = ["held_out_in_turn", "passes_speeds_once"]
 
@@ -34,20 +34,24 @@ def held_out_in_turn(recording: Recording) -> Recording:
     r = recording
     if len(r.run_names) >= MANY_RUNS or not passes_speeds_once(r):
         return recording
+    speed, period = np.abs(r.velocity), r.scales()["sample_period"]
+
+    def dealt(count: int) -> Ints:
+        return equal_stretches(r.dt, period, count) % BLOCKS
+
     possible = [count for count in _STRETCHES if r.time.size >= count * _LEAST]
-    dealt = {count: _dealt(r.dt, count) for count in possible}
-    speed = np.abs(r.velocity)
-    enough = [n for n, block in dealt.items() if _fast_blocks(speed, r.moving, block) >= _SHARED]
     if not possible:
         return recording
-    count = enough[0] if enough else possible[-1]
-    if _has_speeds_of_its_own(speed, r.moving, dealt[count]):
+    enough = (n for n in possible if _fast_blocks(speed, r.moving, dealt(n)) >= _SHARED)
+    count = next(enough, possible[-1])
+    block = dealt(count)
+    if _has_speeds_of_its_own(speed, r.moving, block):
         return recording
     note = (
         f"one tenth of the recording has its highest speeds for itself: {count} stretches are held "
         f"out in turn, in ten groups that share these speeds"
     )
-    return replace(r, block=ints(dealt[count]), block_count=BLOCKS, notes=(*r.notes, note))
+    return replace(r, block=ints(block), block_count=BLOCKS, notes=(*r.notes, note))
 
 
 def passes_speeds_once(recording: Recording) -> bool:
@@ -72,11 +76,3 @@ def _fast_blocks(speed: Floats, moving: Bools, block: Ints) -> int:
     """The number of blocks that hold samples faster than half of the highest speed."""
     fast = moving & (speed > 0.5 * np.quantile(speed[moving], _HIGHEST))
     return int(np.unique(block[fast]).size)
-
-
-def _dealt(dt: Floats, count: int) -> Ints:
-    """Blocks of `count` stretches of equal duration in turn, [n]."""
-    typical = float(np.median(dt[dt > 0.0])) if np.any(dt > 0.0) else 1.0
-    clock = np.cumsum(np.where(dt > 0.0, dt, typical))
-    stretch = np.minimum((clock / clock[-1] * count).astype(np.int64), count - 1)
-    return np.asarray(stretch % BLOCKS)

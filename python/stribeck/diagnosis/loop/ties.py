@@ -152,9 +152,8 @@ class _Others:
             return 0.0
         if promise > 0.0 and impossible(Claim(effect, self.without, by.fit)) is not None:
             return 0.0
-        if self.fits_exactly and self._adds_to(by.fit):
-            return 0.0
-        if self._is_apart_from(by.fit):
+        both = self._beside(by.fit)
+        if both is not None and (self._adds_to_form(both) or self._is_apart(both, by.fit)):
             return 0.0
         effects, fits = (self.finding.effect, effect), (self.current, by.fit)
         if is_undecided(effects, fits, self.without, self.structure):
@@ -191,18 +190,16 @@ class _Others:
         found = screened(before, effect, seed=self.seed)
         return None if found is None else try_effect(before, found)
 
-    def _adds_to(self, before: Fit) -> bool:
-        """Whether the one explains more than noise beside the effects of a fit."""
-        trial = self._beside(before)
-        return trial is not None and trial.evidence.p_value * len(effect_ids()) <= SIGNIFICANCE
+    def _adds_to_form(self, both: Trial) -> bool:
+        """Whether the one has the very form of what is missing, and adds to another effect."""
+        return self.fits_exactly and both.evidence.p_value * len(effect_ids()) <= SIGNIFICANCE
 
-    def _is_apart_from(self, other: Fit) -> bool:
+    def _is_apart(self, both: Trial, other: Fit) -> bool:
         """Whether the one explains nearly as much beside another effect as without it."""
-        without, trial = self.without, self._beside(other)
-        if without is None or trial is None:
+        if self.without is None:
             return False
-        alone, both = (
+        alone, beside = (
             held_out_square(before, self.current) - held_out_square(after, self.current)
-            for before, after in ((without, self.current), (other, trial.fit))
+            for before, after in ((self.without, self.current), (other, both.fit))
         )
-        return alone > 0.0 and both >= APART * alone
+        return alone > 0.0 and beside >= APART * alone

@@ -14,12 +14,11 @@ from stribeck.diagnosis.carrying import fewest
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
 from stribeck.effect.describe import is_drive_train, is_friction
+from stribeck.identify.stated.loss import robust_scale
 
 #: Share of the squared error that an effect must explain where it acts, and how many times as large
 #: as elsewhere the error may be that it leaves there.
 EXPLAINED, LEFT = 0.75, 3.0
-#: RMS of normal noise as a multiple of the median of its size.
-NORMAL = 1.4826
 
 
 def leaves_more(claim: Claim) -> str | None:
@@ -35,7 +34,7 @@ def leaves_more(claim: Claim) -> str | None:
         claim.before.weighted(fit.held_out_residual[claim.rows])
         for fit in (claim.before, claim.after)
     )
-    usual = NORMAL * float(np.median(np.abs(along)))
+    usual = robust_scale(along)
     square_without, square_along = (float(np.sum(x[acts] ** 2)) for x in (without, along))
     noise = acts.size * usual**2
     left = np.sqrt(square_along / noise) if noise > 0.0 else 0.0
