@@ -2,7 +2,7 @@
 #![cfg(feature = "std")]
 
 use crate::common::{self, every_model, motion, values};
-use stribeck::batch::{self, BatchError, TimeStep};
+use stribeck::batch::{self, BatchError, Channels, Columns, TimeStep};
 use stribeck::{Dual, Real, Spec};
 
 #[test]
@@ -55,9 +55,28 @@ fn zero_delay_changes_nothing_and_has_the_mean_slope() {
     let (torque, jacobian) = batch::gradient(&spec, &[2.0, 3.0, 0.0], &columns, None).unwrap();
     assert_eq!(torque, batch::torque(&plain, &[2.0, 3.0], &columns).unwrap());
     let whole: Vec<f64> = torque.iter().zip(&motion.load_torque).map(|(f, l)| f + l).collect();
-    for i in 1..119 {
+    let v = &motion.velocity;
+    let reverses = |i: usize| v[i - 1] * v[i] < 0.0 || v[i] * v[i + 1] < 0.0;
+    for i in (1..119).filter(|&i| !reverses(i)) {
         let slope = (whole[i + 1] - whole[i - 1]) / (2.0 * motion.dt);
         common::close(jacobian[3 * i + 2], -slope, 1e-9);
+    }
+}
+
+#[test]
+fn delayed_dry_friction_jumps_where_the_velocity_is_zero() {
+    let velocity = [-3.0, -1.0, 3.0, 4.0];
+    let channels = Channels { velocity: &velocity, ..Channels::default() };
+    let columns = Columns { dt: TimeStep::Uniform(1.0), channels, ..Columns::default() };
+    let spec = Spec::new("coulomb", ["delay"]).unwrap();
+    // The velocity is zero at 1.25: friction of 2 N m changes its sign from 1.0 to 1.5.
+    for (delay, friction, slope) in
+        [(0.9, -1.2, -8.0), (0.75, 0.0, -8.0), (0.45, 2.0, 0.0), (1.1, -2.0, 0.0), (-0.4, 2.0, 0.0)]
+    {
+        let (torque, jacobian) =
+            batch::gradient(&spec, &[0.0, 2.0, delay], &columns, None).unwrap();
+        common::close(torque[2], friction, 1e-12);
+        common::close(jacobian[3 * 2 + 2], slope, 1e-12);
     }
 }
 

@@ -8,11 +8,18 @@ use super::columns::{Columns, Rows};
 use super::first_parameter;
 use crate::catalog::EffectId;
 use crate::composed::Spec;
+use crate::dynamics::Memory;
+
+/// Half of the time in which a reversal passes from one direction to the other, as a share of the
+/// step between two samples.
+const REVERSAL: f64 = 0.25;
 
 /// The delay of a model. Its torque and the derivatives are evaluated twice: `f` from the channels
 /// as recorded and `g` from the smoothed ones; `f + S(g) - g` is delayed.
 pub struct Delay {
     seconds: f64,
+    /// Whether dry friction jumps where the velocity changes its sign: without a bristle.
+    jumps: bool,
     /// The place of its derivative among those that are wanted.
     pub own: Option<usize>,
 }
@@ -22,30 +29,33 @@ impl Delay {
     pub fn of(spec: &Spec, values: &[f64], wanted: &[usize]) -> Option<Self> {
         let parameter = first_parameter(spec, EffectId::Delay)?;
         let own = wanted.iter().position(|&index| index == parameter);
-        Some(Self { seconds: values[parameter], own })
+        Some(Self { seconds: values[parameter], jumps: matches!(spec.memory(), Memory::None), own })
     }
 
     /// The shift of the torque from the smoothed channels, to which the load is added where it is
     /// delayed too.
     pub fn shift(&self, rows: &Rows, columns: &Columns<'_>, torque: &mut [f64]) -> Shift {
         columns.add_load(torque);
-        Shift::of(rows, self.seconds, torque)
+        let velocity = columns.smoothed().channels.velocity;
+        Shift::of(rows, self.seconds, torque, self.jumps.then_some(velocity))
     }
 }
 
 /// Where a delayed series is read at each sample, `S(g)(t) = g(t - delay)`: by linear interpolation
-/// between a sample and the next, constant beyond the ends of a segment.
+/// between a sample and the next, constant beyond the ends of a segment. Between two directions dry
+/// friction jumps: there the series passes from one sample to the other about the instant at which
+/// the velocity, interpolated, is zero.
 pub struct Shift {
     at: Vec<usize>,
     next: Vec<usize>,
-    /// The share of the way from the one to the other.
+    /// The share of the way from the value at the one to that at the other.
     weight: Vec<f64>,
     /// The derivative of the delayed series with respect to the delay, at each sample.
     pub by_delay: Vec<f64>,
 }
 
 impl Shift {
-    fn of(rows: &Rows, delay: f64, series: &[f64]) -> Self {
+    fn of(rows: &Rows, delay: f64, series: &[f64], velocity: Option<&[f64]>) -> Self {
         let count = rows.count();
         let mut shift = Self {
             at: Vec::with_capacity(count),
@@ -57,7 +67,12 @@ impl Shift {
         let ends = starts.iter().skip(1).map(|&(row, _)| row).chain([count]);
         for (&(start, _), end) in starts.iter().zip(ends) {
             let own = start..end;
-            let segment = Segment { start, steps: &steps[own.clone()], series: &series[own] };
+            let segment = Segment {
+                start,
+                steps: &steps[own.clone()],
+                series: &series[own.clone()],
+                velocity: velocity.map(|column| &column[own]),
+            };
             segment.place(delay, &mut shift);
         }
         shift
@@ -125,6 +140,8 @@ struct Segment<'a> {
     start: usize,
     steps: &'a [f64],
     series: &'a [f64],
+    /// Of a series that jumps where it changes its sign.
+    velocity: Option<&'a [f64]>,
 }
 
 impl Segment<'_> {
@@ -146,23 +163,63 @@ impl Segment<'_> {
             let inside = ahead > 0.0 && k < last;
             shift.at.push(self.start + k);
             shift.next.push(self.start + (k + 1).min(last));
-            shift.weight.push(if inside { ahead / self.steps[k + 1] } else { 0.0 });
-            shift.by_delay.push(if inside {
-                -self.slope(k)
+            let (weight, slope) = if inside {
+                let share = ahead / self.steps[k + 1];
+                let passage = self.passage(k);
+                (passage.done(share), self.slope(k, passage.pace(share)))
             } else if ahead == 0.0 {
                 // At a sample the interpolation has a kink: the mean of both slopes.
-                -0.5 * (self.slope(k.wrapping_sub(1)) + self.slope(k))
+                let before = k.wrapping_sub(1);
+                let slopes = self.slope(before, self.passage(before).pace(1.0))
+                    + self.slope(k, self.passage(k).pace(0.0));
+                (0.0, 0.5 * slopes)
             } else {
-                0.0
-            });
+                (0.0, 0.0)
+            };
+            shift.weight.push(weight);
+            shift.by_delay.push(-slope);
         }
     }
 
-    /// Slope between a sample and the next; 0 beyond the ends.
-    fn slope(&self, row: usize) -> f64 {
+    /// Slope between a sample and the next, which is `pace` times that of the straight line; 0
+    /// beyond the ends.
+    fn slope(&self, row: usize, pace: f64) -> f64 {
         match self.steps.get(row.wrapping_add(1)) {
-            Some(&dt) if row < self.steps.len() => (self.series[row + 1] - self.series[row]) / dt,
+            Some(&dt) if row < self.steps.len() => {
+                pace * (self.series[row + 1] - self.series[row]) / dt
+            }
             _ => 0.0,
         }
+    }
+
+    /// How the series passes from a sample to the next.
+    fn passage(&self, row: usize) -> Passage {
+        let ends = self.velocity.and_then(|v| Some((*v.get(row)?, *v.get(row.wrapping_add(1))?)));
+        match ends {
+            Some((here, next)) if here * next < 0.0 => {
+                let zero = here.abs() / (here.abs() + next.abs());
+                Passage { start: (zero - REVERSAL).max(0.0), end: (zero + REVERSAL).min(1.0) }
+            }
+            _ => Passage { start: 0.0, end: 1.0 },
+        }
+    }
+}
+
+/// The part of a step, from 0 to 1, in which a series passes from one sample to the next.
+struct Passage {
+    start: f64,
+    end: f64,
+}
+
+impl Passage {
+    /// The share of the way that is done after this share of the step.
+    fn done(&self, share: f64) -> f64 {
+        ((share - self.start) / (self.end - self.start)).clamp(0.0, 1.0)
+    }
+
+    /// The derivative of `done`; at a border that of the inside.
+    fn pace(&self, share: f64) -> f64 {
+        let inside = share >= self.start && share <= self.end;
+        if inside { 1.0 / (self.end - self.start) } else { 0.0 }
     }
 }

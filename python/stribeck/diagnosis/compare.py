@@ -25,6 +25,7 @@ from stribeck.identify.errors.information import (
     information,
 )
 from stribeck.identify.figures import relative_residual, rms
+from stribeck.identify.left_out.rows import scored_rows
 from stribeck.identify.weights import weighted
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
@@ -139,7 +140,7 @@ class Comparison(Plotted):
             },
             "models": [assessment.to_dict() for assessment in self.models],
             "noise_floor": self.noise_floor,
-            "scored": self.recording.scored(),
+            "scored": self.recording.scored(scored_rows(self.recording)),
         }
         if self.noise_floor is None:
             made["noise_floor_why"] = self.noise_floor_why
@@ -216,10 +217,10 @@ def _informations(fits: Sequence[Fit]) -> list[Information | None]:
 def assess(fit: Fit, criteria: Information | None) -> Assessment:
     """One model's error figures."""
     r = fit.recording
-    moving = r.moving
+    scored = fit.scored
     residual = fit.residual
-    at = residual[moving]
-    torque = r.torque[moving]
+    at = residual[scored]
+    torque = r.torque[scored]
     spread = float(np.sum((torque - torque.mean()) ** 2))
     regimes = []
     for name, rows in regime_rows(fit).items():
@@ -227,7 +228,7 @@ def assess(fit: Fit, criteria: Information | None) -> Assessment:
             regimes.append(
                 Regime(
                     name,
-                    float(rows.mean() if name == "standstill" else rows.sum() / moving.sum()),
+                    float(rows.mean() if name == "standstill" else rows.sum() / scored.sum()),
                     rms(residual[rows]),
                     float(residual[rows].mean()),
                 )
@@ -248,8 +249,8 @@ def assess(fit: Fit, criteria: Information | None) -> Assessment:
         rmse_low_speed=low.rmse,
         mean_absolute=float(np.abs(at).mean()),
         largest_absolute=float(np.abs(at).max()),
-        energy=joules(electrical_energy(r, fit.prediction)),
-        energy_all_rows=joules(electrical_energy(r, fit.prediction, np.ones_like(moving))),
+        energy=joules(electrical_energy(r, fit.prediction, scored)),
+        energy_all_rows=joules(electrical_energy(r, fit.prediction, np.ones_like(scored))),
         regimes=tuple(regimes),
         information=criteria,
         fit=fit,

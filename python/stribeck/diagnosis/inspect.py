@@ -16,6 +16,7 @@ from stribeck.diagnosis.testable import Untestable, untestable
 from stribeck.fitting.fit import fit
 from stribeck.fitting.protocols.found import Protocol, found_protocols
 from stribeck.fitting.transmission.measure import Transmission, measure_transmission
+from stribeck.identify.left_out.rows import scored_rows
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
 from stribeck.models.rigid_body import own_load
@@ -122,7 +123,8 @@ class Inspection(Shown):
                 for name, t in self.transmissions.items()
             ]
         if len(self.recordings) == 1:
-            made["scored"] = self.recordings[0].scored()
+            (only,) = self.recordings
+            made["scored"] = only.scored(scored_rows(only))
         if self.problem is not None:
             made["problem"] = spell(self.problem)
         return made

@@ -237,7 +237,7 @@ class Diagnosis(Plotted):
             "smallest_visible": [row.to_dict() for row in self.smallest_visible],
             "indistinguishable_groups": [list(group.effects) for group in self.groups],
             "indistinguishable": [group.to_dict() for group in self.groups],
-            "scored": self.fit.recording.scored(),
+            "scored": self.fit.recording.scored(self.fit.scored),
             "notes": [*self.fit.recording.notes, *self.fit.notes],
         }
         if self.noise_floor.value is None:

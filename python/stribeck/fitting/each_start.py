@@ -13,6 +13,7 @@ from stribeck.fitting.prediction import Prediction, refuse_infinite
 from stribeck.fitting.solve import Solution, solve, with_own_load
 from stribeck.fitting.stated import solve_under
 from stribeck.identify.figures import rms
+from stribeck.identify.left_out.rows import scored_rows
 from stribeck.identify.problem import Problem
 from stribeck.identify.search.effort import Effort
 from stribeck.identify.search.ends import Ended
@@ -99,7 +100,7 @@ def _fitted(problem: Problem, solution: Solution, end: Ended, effort: Effort) ->
     if not end.finished:
         prediction = problem.predict(values)
         refuse_infinite(problem, prediction)
-        error = rms((recording.torque - prediction)[recording.moving])
+        error = rms((recording.torque - prediction)[scored_rows(recording)])
         return FittedStart(model, error, None, False, LEFT, end.evaluations)
     if model.stated.changes_the_search:
         return _under(problem, replace(solution, values=values), end, effort)

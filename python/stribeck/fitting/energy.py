@@ -114,7 +114,7 @@ def electrical_energy(
     prediction : array [n]
         Predicted motor torque: load torque plus friction.
     rows : bool array [n], optional
-        Samples of both sums; the default is the scored ones. They leave out samples at rest, where
+        Samples of both sums; the default is those that move. They leave out samples at rest, where
         friction is whatever holds the joint; the review sums over all.
 
     Returns

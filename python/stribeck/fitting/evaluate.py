@@ -16,6 +16,7 @@ from stribeck.fitting.predict import predicted
 from stribeck.fitting.result import Fit
 from stribeck.identify.errors.estimates import Estimate
 from stribeck.identify.figures import relative_residual, rms
+from stribeck.identify.left_out.rows import scored_rows
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.model import Model
 from stribeck.recording.recording import Recording
@@ -63,7 +64,8 @@ def evaluate(
             f"{model.spec} predicts a torque beyond {LARGEST:g} on {recording.path}: correct the "
             f"values of the model"
         )
-    residual, moving = recording.torque - prediction, recording.moving
+    residual = recording.torque - prediction
+    error = rms(residual[scored_rows(recording)])
     known = {fitted_on} if isinstance(fitted_on, str) else set(fitted_on or ())
     same = not known.isdisjoint(recording.hashes)
     return Fit(
@@ -72,8 +74,8 @@ def evaluate(
         estimates=_stored(model, stderr or {}),
         prediction=prediction,
         held_out=prediction,
-        rmse=rms(residual[moving]),
-        rmse_held_out=None if same else rms(residual[moving]),
+        rmse=error,
+        rmse_held_out=None if same else error,
         relative_residual=None if same else relative_residual(recording, residual),
         starts=0,
         converged=True,
@@ -117,7 +119,7 @@ def evaluated_on(fitted: Fit, recordings: Iterable[Recording]) -> Fit:
 def evaluated(model: Model, recording: Recording) -> Evaluated:
     """The error of a model on a recording of the same kind of joint."""
     judged = evaluate(model, recording)
-    rows = int(recording.moving.sum())
+    rows = int(scored_rows(recording).sum())
     return Evaluated(recording.path, rows, judged.rmse, judged.relative_residual)
 
 

@@ -71,7 +71,7 @@ def fit(
         For noise correlated in time; for independent noise (``s^2 (J'J)^-1``); as robust, with
         profile-likelihood intervals; from refits to `resamples` of blocks.
     transient : bool array [n], optional
-        Samples that are scored but excluded from the fit. Detected by default.
+        Samples that are excluded from the fit. Detected by default.
     passive : bool
         If true, passivity is imposed and proved. `Fit.passive_cost` states what that costs.
     weights : array [n], optional

@@ -25,7 +25,7 @@ from stribeck.identify.errors.information import Information, criteria, informat
 from stribeck.identify.errors.matrix import ParameterMatrix
 from stribeck.identify.figures import torque_cutoff
 from stribeck.identify.instrumental.exogeneity import Exogeneity
-from stribeck.identify.left_out.rows import transients
+from stribeck.identify.left_out.rows import scored_rows, transients
 from stribeck.identify.search.ends import StartsReport
 from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.fitted import note_origin
@@ -52,9 +52,9 @@ class Fit(Plotted):
     prediction, held_out : array [n]
         Torque of every sample, predicted by the fit and by the refit without the sample's block.
     rmse, rmse_held_out : float
-        Over the scored (moving) samples, in the unit of torque.
+        Over the scored samples, in the unit of torque.
     transient : bool array [n]
-        Samples that are scored but were excluded from the fit.
+        Samples that were excluded from the fit.
     load : array [n], optional
         Load torque of the identified rigid body.
     passive_cost : PassiveCost, optional
@@ -189,7 +189,7 @@ class Fit(Plotted):
     @property
     def rmse_weighted(self) -> float | None:
         """Weighted RMSE over the scored samples; None without weights."""
-        return weighted_rms(self.recording, self.residual, self.recording.moving)
+        return weighted_rms(self.recording, self.residual, self.scored)
 
     @property
     def rmse_held_out_weighted(self) -> float | None:
@@ -197,7 +197,7 @@ class Fit(Plotted):
         if self.rmse_held_out is None:
             return None
         counted = self.recording.counted
-        at = self.recording.moving if counted is None else self.recording.moving & counted
+        at = self.scored if counted is None else self.scored & counted
         return weighted_rms(self.recording, self.held_out_residual, at)
 
     @property
@@ -214,6 +214,11 @@ class Fit(Plotted):
         """`values` [m] of the samples fitted to, times the square roots of their weights."""
         root = root_weights(self.recording, self.loss_weight)
         return values if root is None else values * root[self.rows]
+
+    @property
+    def scored(self) -> NDArray[np.bool_]:
+        """Which samples the errors are of, [n]: those that move and are not in doubt."""
+        return scored_rows(self.recording)
 
     @property
     def rows(self) -> NDArray[np.intp]:
@@ -296,7 +301,7 @@ class Fit(Plotted):
             "drive": self.model.drive,
             "formulas": {terms.name: terms.text for terms in self.model.own},
             "transients": [list(pair) for pair in transients(self.recording, self.transient)],
-            "scored": self.recording.scored(),
+            "scored": self.recording.scored(self.scored),
             "notes": [*self.recording.notes, *self.notes],
             **self.evaluations_dict(),
             **({"per_run": self.per_run_dict()} if self.per_run else {}),

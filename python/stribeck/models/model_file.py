@@ -25,7 +25,7 @@ class ModelFile:
     stderr : dict of float
         Standard errors by parameter name, in the parameters' units, where known.
     fitted_on : dict
-        ``path``, ``sha256``, ``files`` (hashes of several files), ``rows`` (scored samples),
+        ``path``, ``sha256``, ``files`` (hashes of several files), ``rows`` (moving samples),
         ``time_span`` [s, s], ``rmse``, ``rmse_held_out``.
     per_run : dict of dicts of pairs
         Value and standard error in each run, by parameter and run, of parameters that have one

@@ -289,12 +289,18 @@ class Recording(Plotted):
         files = () if self.origin is None else self.origin.files
         return (self.sha256, *(sha256 for _, sha256 in files if len(files) > 1))
 
-    def scored(self) -> dict[str, float]:
-        """The ``scored`` object of the JSON output: rows, share, velocity_threshold."""
-        rows = int(self.moving.sum())
+    def scored(self, rows: Bools | None = None) -> dict[str, float]:
+        """The ``scored`` object of the JSON output: rows, share, velocity_threshold.
+
+        Parameters
+        ----------
+        rows : bool array [n]
+            Samples that are scored; default: all that move.
+        """
+        count = int((self.moving if rows is None else rows).sum())
         return {
-            "rows": rows,
-            "share": rows / len(self.moving),
+            "rows": count,
+            "share": count / len(self.moving),
             "velocity_threshold": self.velocity_threshold,
         }
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from stribeck.base.errors import joint_called
+from stribeck.identify.left_out.rows import scored_rows
 from stribeck.report.numbers import percent, plain, thousands
 
 if TYPE_CHECKING:
@@ -57,15 +58,17 @@ def state_of(check: Check) -> Literal["ok", "open", "wrong"]:
 
 def scored_sentence(r: Recording) -> str:
     """Which samples are scored, in one sentence."""
-    scored = r.scored()
+    scored = r.scored(scored_rows(r))
     if r.velocity_threshold == 0.0:
         return f"All {thousands(r.time.size)} samples are scored, moving or not."
     by_noise = math.isclose(r.velocity_threshold, 5.0 * r.velocity_noise, rel_tol=1e-6)
     why = ", five times the noise of the velocity" if by_noise else ""
+    doubtful = int(r.moving.sum()) - int(scored["rows"])
+    without = f", without {thousands(doubtful)} in doubt" if doubtful else ""
     return (
         f"{thousands(int(scored['rows']))} of {thousands(r.time.size)} samples are scored "
         f"({percent(scored['share'])}): those moving faster than "
-        f"{plain(r.velocity_threshold, 2)} {r.position_unit}/s{why}."
+        f"{plain(r.velocity_threshold, 2)} {r.position_unit}/s{why}{without}."
     )
 
 

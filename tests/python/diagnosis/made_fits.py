@@ -86,6 +86,11 @@ class Left:
             object.__setattr__(self, "transient", np.zeros(self.residual.size, dtype=bool))
 
     @property
+    def scored(self) -> NDArray[np.bool_]:
+        """The samples in motion: none is in doubt."""
+        return self.recording.moving
+
+    @property
     def rows(self) -> NDArray[np.intp]:
         """The samples in motion, without transients."""
         return np.flatnonzero(self.recording.moving & ~self.transient)

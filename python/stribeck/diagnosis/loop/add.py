@@ -51,7 +51,7 @@ class Addition(Shown):
             "rmse_held_out_after": self.after.rmse_held_out,
             "unit": self.after.model.torque_unit,
             "parameters": {n: e.to_dict() for n, e in self.after.estimates.items()},
-            "scored": self.after.recording.scored(),
+            "scored": self.after.recording.scored(self.after.scored),
         }
 
 

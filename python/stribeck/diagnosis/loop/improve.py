@@ -112,7 +112,7 @@ class Improvement(Plotted):
             "trend": self.last.trend.to_dict() if self.last.trend else None,
             "smallest_visible": [row.to_dict() for row in self.last.smallest_visible],
             "indistinguishable": [group.to_dict() for group in self.last.groups],
-            "scored": self.final.recording.scored(),
+            "scored": self.final.recording.scored(self.final.scored),
             "notes": [*self.final.recording.notes, *self.final.notes],
             **self.final.evaluations_dict(),
         }

@@ -15,29 +15,29 @@ REVERSAL_WINDOW = 0.2
 def regime_rows(fit: Fit) -> dict[str, NDArray[np.bool_]]:
     """Samples of each regime, bool [n]; all but ``"standstill"`` among the scored samples."""
     r = fit.recording
-    moving = r.moving
+    scored = fit.scored
     v = r.velocity
-    rows = {"reversal": _near_reversal(r) & moving}
+    rows = {"reversal": _near_reversal(r) & scored}
     speed = np.abs(v)
-    low, high = np.quantile(speed[moving], [0.25, 0.75])
-    rows["low_speed"] = moving & (speed <= low)
-    rows["high_speed"] = moving & (speed >= high)
-    rows["forward"] = moving & (v > 0)
-    rows["backward"] = moving & (v < 0)
+    low, high = np.quantile(speed[scored], [0.25, 0.75])
+    rows["low_speed"] = scored & (speed <= low)
+    rows["high_speed"] = scored & (speed >= high)
+    rows["forward"] = scored & (v > 0)
+    rows["backward"] = scored & (v < 0)
     power = v * r.torque
-    rows["motoring"] = moving & (power > 0)
-    rows["generating"] = moving & (power < 0)
-    if r.temperature is not None and np.ptp(r.temperature[moving]) > 0:
-        low, high = np.quantile(r.temperature[moving], [0.25, 0.75])
-        rows["cold"] = moving & (r.temperature <= low)
-        rows["hot"] = moving & (r.temperature >= high)
-    low, high = np.quantile(r.time[moving], [0.25, 0.75])
-    rows["start"] = moving & (r.time <= low)
-    rows["end"] = moving & (r.time >= high)
+    rows["motoring"] = scored & (power > 0)
+    rows["generating"] = scored & (power < 0)
+    if r.temperature is not None and np.ptp(r.temperature[scored]) > 0:
+        low, high = np.quantile(r.temperature[scored], [0.25, 0.75])
+        rows["cold"] = scored & (r.temperature <= low)
+        rows["hot"] = scored & (r.temperature >= high)
+    low, high = np.quantile(r.time[scored], [0.25, 0.75])
+    rows["start"] = scored & (r.time <= low)
+    rows["end"] = scored & (r.time >= high)
     if r.enabled is not None and not r.enabled.all():
-        rows["drive_on"] = moving & r.enabled
-        rows["drive_off"] = moving & ~r.enabled
-    rows["standstill"] = ~moving
+        rows["drive_on"] = scored & r.enabled
+        rows["drive_off"] = scored & ~r.enabled
+    rows["standstill"] = ~r.moving
     return rows
 
 

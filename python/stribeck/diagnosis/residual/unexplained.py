@@ -107,10 +107,9 @@ def unexplained(
 
 def _excluded(fit: Fit) -> float:
     """Share of the squared held-out error of the scored samples that the fit excludes."""
-    scored = fit.recording.moving
-    square = np.where(scored, fit.held_out_residual**2, 0.0)
+    square = np.where(fit.scored, fit.held_out_residual**2, 0.0)
     total = float(square.sum())
-    return float(square[scored & fit.transient].sum()) / total if total > 0.0 else 0.0
+    return float(square[fit.transient].sum()) / total if total > 0.0 else 0.0
 
 
 def _unexplained(

@@ -132,7 +132,7 @@ class Difference:
 def difference(worse: Fit, better: Fit, *, everywhere: bool = False) -> Difference:
     """Compare two models, nested or not, on held-out samples; `everywhere`, also at reversals."""
     whole = everywhere and worse.loss_weight is None
-    rows = np.flatnonzero(worse.recording.moving) if whole else worse.rows
+    rows = np.flatnonzero(worse.scored) if whole else worse.rows
     change = (
         worse.weighted(worse.held_out_residual[rows]) ** 2
         - worse.weighted(better.held_out_residual[rows]) ** 2

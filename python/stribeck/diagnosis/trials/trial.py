@@ -357,7 +357,7 @@ def falls_on_all_samples(before: Fit, trial: Trial) -> bool:
     assert before.rmse_held_out is not None and trial.fit.rmse_held_out is not None
     if before.loss_weight is None:
         return trial.fit.rmse_held_out < before.rmse_held_out
-    at = before.recording.moving
+    at = before.scored
     weight = before.loss_weight[at]
     gain = before.held_out_residual[at] ** 2 - trial.fit.held_out_residual[at] ** 2
     return bool(np.sum(weight * gain) > 0.0)

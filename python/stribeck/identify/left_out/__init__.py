@@ -1,1 +1,1 @@
-"""Samples that are scored but excluded from every fit: transients, and channels that are late."""
+"""Samples that are excluded from every fit: transients, and samples in doubt."""

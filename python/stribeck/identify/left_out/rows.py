@@ -1,10 +1,11 @@
-"""Samples that are scored but excluded from every fit, and what a reader has to know of them."""
+"""Samples that are excluded from every fit, and what a reader has to know of them."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.base.memo import Memo
 from stribeck.identify.left_out.late_torque import friction_of_rest, friction_of_slow_motion
 from stribeck.identify.left_out.torque_shift import torque_shift
 from stribeck.identify.left_out.transients import stretches, transient_rows
@@ -13,21 +14,29 @@ from stribeck.recording.recording import Recording
 
 Bools = NDArray[np.bool_]
 
+_SCORED: Memo[Recording, Bools] = Memo()
+
+
+def scored_rows(recording: Recording) -> Bools:
+    """Samples that models are judged by, bool [n]: those that move, unless they are in doubt.
+
+    What a model predicts for a sample in doubt, whose direction or friction is unknown because a
+    channel is late, may be wrong by twice the dry friction however good the model is.
+    """
+    return _SCORED.of(recording, "", lambda: recording.moving & ~_in_doubt(recording))
+
 
 def rows_left_out(recording: Recording) -> Bools:
-    """Scored samples that no friction model can fit, bool [n].
+    """Moving samples that no model is fitted to, bool [n].
 
-    They are transients, or in doubt because a channel is late.
+    They are transients, which are scored, or in doubt because a channel is late.
     """
-    doubtful = _in_doubt(recording)
-    return transient_rows(recording, doubtful) | doubtful | friction_of_slow_motion(recording)
+    return transient_rows(recording, _of_rest(recording)) | _in_doubt(recording)
 
 
 def transients(recording: Recording, marked: Bools) -> list[tuple[float, float]]:
     """Start and end times in s of those of the samples `marked` that are transients."""
-    return stretches(
-        recording, marked & ~(_in_doubt(recording) | friction_of_slow_motion(recording))
-    )
+    return stretches(recording, marked & ~_in_doubt(recording))
 
 
 def left_out_notes(recording: Recording, marked: Bools) -> tuple[str, ...]:
@@ -45,6 +54,10 @@ def left_out_notes(recording: Recording, marked: Bools) -> tuple[str, ...]:
 
 
 def _in_doubt(recording: Recording) -> Bools:
+    return _of_rest(recording) | friction_of_slow_motion(recording)
+
+
+def _of_rest(recording: Recording) -> Bools:
     return uncertain_direction(recording) | friction_of_rest(recording)
 
 
@@ -58,8 +71,7 @@ def _of_late_velocity(recording: Recording, marked: Bools) -> tuple[str, ...]:
     return (
         f"the recorded velocity lags the position by {1e3 * late.lag:.3g} ms "
         f"({late.lag * recording.rate_hz:.2g} samples), as behind a filter: the direction of "
-        f"{count} samples before reversals is uncertain; they are scored, but excluded from the "
-        f"fit",
+        f"{count} samples before reversals is uncertain; they are neither fitted nor scored",
     )
 
 
@@ -77,5 +89,5 @@ def _of_late_torque(recording: Recording, marked: Bools) -> tuple[str, ...]:
     return (
         f"the torque is as if it {way} the motion by about "
         f"{1e3 * abs(shift) / recording.rate_hz:.3g} ms: "
-        f"{', and '.join(listed)}; they are scored, but excluded from the fit",
+        f"{', and '.join(listed)}; they are neither fitted nor scored",
     )

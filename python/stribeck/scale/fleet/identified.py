@@ -119,7 +119,7 @@ def _identified(fitted: Fit, found: tuple[Found, ...], floor: float | None) -> I
         model_file=ModelFile.of(fitted).to_toml(),
         found=found,
         rows=fitted.recording.rows,
-        rows_scored=int(fitted.recording.moving.sum()),
+        rows_scored=int(fitted.scored.sum()),
         unit=fitted.model.torque_unit,
         rmse=fitted.rmse,
         rmse_held_out=fitted.rmse_held_out,

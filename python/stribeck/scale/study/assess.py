@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from stribeck.fitting.energy import Energy, electrical_energy, joules
 from stribeck.fitting.evaluate import evaluate
+from stribeck.identify.left_out.rows import scored_rows
 from stribeck.identify.scaling import model_for
 from stribeck.recording.recording import Recording
 from stribeck.scale.study.desk import Desk
@@ -164,7 +165,7 @@ def assess_joint(desk: Desk, of: JointTrials) -> Assessed:
     low_speed = LOW_SPEED[recording.joint_kind] if of.low_speed is None else of.low_speed
     data = JointData(
         recording.rows,
-        recording.scored(),
+        recording.scored(scored_rows(recording)),
         recording.torque_unit,
         f"{recording.position_unit}/s",
         low_speed,
@@ -193,8 +194,8 @@ def assess(trials: Sequence[Trial], recording: Recording, low_speed: float) -> E
     if best is None or best.rmse is None:
         return None
     result = evaluate(best.model(recording), recording)
-    moving = recording.moving
-    slow = moving & (np.abs(recording.velocity) < low_speed)
+    scored = result.scored
+    slow = scored & (np.abs(recording.velocity) < low_speed)
     known = recording.known_torque if result.load is None else result.load
     rows = _drawn(recording)
     limit = best.rmse * 1.001
@@ -202,10 +203,10 @@ def assess(trials: Sequence[Trial], recording: Recording, low_speed: float) -> E
         best=best,
         trials=len(trials),
         agreeing=sum(t.rmse is not None and t.rmse <= limit for t in trials),
-        whole=Spread.of(result.residual[moving]),
+        whole=Spread.of(result.residual[scored]),
         low_speed=Spread.of(result.residual[slow]),
-        energy=electrical_energy(recording, result.prediction),
-        energy_all_rows=electrical_energy(recording, result.prediction, np.ones_like(moving)),
+        energy=electrical_energy(recording, result.prediction, scored),
+        energy_all_rows=electrical_energy(recording, result.prediction, np.ones_like(scored)),
         cloud=Cloud(
             recording.velocity[rows],
             (recording.torque - known)[rows],

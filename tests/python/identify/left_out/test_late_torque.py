@@ -101,3 +101,16 @@ def test_nothing_else_is_named(recording: sb.Recording) -> None:
     found = sb.improve("coulomb", recording)
     assert [step.finding.effect for step in found.steps] == ["delay"]
     assert found.steps[0].finding.confidence > 0.9
+
+
+def test_samples_in_doubt_are_not_scored(recording: sb.Recording) -> None:
+    """Beside a rest any torque may be shown: the error does not count it."""
+    found = sb.fit("coulomb+delay", recording, starts=1)
+    doubtful = friction_of_rest(recording)
+    assert found.scored.sum() == recording.moving.sum() - doubtful.sum()
+    assert found.rmse == pytest.approx(0.05, rel=0.1)
+    kept = np.sqrt(np.mean(found.residual[doubtful] ** 2))
+    assert kept > 10.0 * found.rmse
+    assert found.to_dict()["scored"]["rows"] == found.scored.sum()
+    compared = sb.compare([found], recording).models[0]
+    assert compared.rmse == found.rmse
