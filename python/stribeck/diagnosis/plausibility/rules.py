@@ -22,6 +22,7 @@ from stribeck.diagnosis.plausibility.negative import (
 )
 from stribeck.diagnosis.plausibility.noise_of_load import noise_of_load
 from stribeck.diagnosis.plausibility.other_part import other_part_changes
+from stribeck.diagnosis.plausibility.same_curve import same_curve
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.steady import steady
 from stribeck.diagnosis.plausibility.too_large import too_large
@@ -44,6 +45,7 @@ IMPOSSIBLE: tuple[Rule, ...] = (
     other_part_changes,
     steady,
     noise_of_load,
+    same_curve,
     worsened,
 )
 #: Nor is one with which another effect of the model breaks one of these.

@@ -5,9 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pytest
 import stribeck as sb
+from stribeck.diagnosis.plausibility import leaves_more as rule
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.leaves_more import leaves_more
+from stribeck.effect.registry import of_catalog
 from synthetic import Array, joint, motion, record
 
 
@@ -32,3 +35,13 @@ def test_shocks_after_reversals_are_no_delay(tmp_path: Path) -> None:
     shock = np.where((since >= 3) & (since <= 5), -20.0 * np.sign(v), 0.0)
     reason = leaves_more(claim_of_delay(tmp_path, shock, "shocks"))
     assert reason is not None and reason.startswith("where it acts, the error remains")
+
+
+def test_a_spring_may_have_another_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stop within the stroke is no polynomial: what the spring leaves is near the stop."""
+    q = motion(6000)[1]
+    before = sb.fit("coulomb", record(tmp_path, joint(40.0 * np.maximum(q - 1.05, 0.0), rows=6000)))
+    claim = Claim("spring", before, sb.add(before, "spring", starts=2), 0.01)
+    assert leaves_more(claim) is None
+    monkeypatch.setattr(rule, "of_catalog", lambda _: of_catalog("delay"))
+    assert leaves_more(claim) is not None

@@ -20,6 +20,7 @@ from stribeck.diagnosis.plausibility.negative import (
     negative_under_load,
 )
 from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, weak
+from stribeck.diagnosis.plausibility.same_curve import same_curve
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
 from stribeck.diagnosis.plausibility.steady import steady
 from stribeck.diagnosis.plausibility.too_large import too_large
@@ -71,6 +72,17 @@ def test_a_true_effect_breaks_no_rule(name: str, request: pytest.FixtureRequest)
     claim = request.getfixturevalue(name)
     assert [rule(claim) for rule in (*IMPOSSIBLE, *WEAK)] == [None] * len((*IMPOSSIBLE, *WEAK))
     assert impossible(claim) is None and weak(claim) is None
+
+
+def test_a_stribeck_curve_beside_viscous_friction_of_the_same_form(stribeck_curve: Claim) -> None:
+    """Without Coulomb friction below it, it is a curve of the speed as viscous friction is."""
+    viscous = sb.add(stribeck_curve.before, "nonlinear_viscous", starts=2)
+    claim = Claim("stribeck", viscous, sb.add(viscous, "stribeck", starts=2), 0.01)
+    assert same_curve(with_values(claim, coulomb_friction=3.0, stribeck_height=1.5)) is None
+    reason = same_curve(with_values(claim, coulomb_friction=0.0, stribeck_height=4.5))
+    assert reason == "the motion cannot tell it from nonlinear_viscous, which the model has"
+    alone = with_values(stribeck_curve, coulomb_friction=0.0, stribeck_height=4.5)
+    assert same_curve(alone) is None
 
 
 def test_a_torque_beyond_all_that_was_measured(offset: Claim) -> None:
