@@ -290,13 +290,7 @@ class Recording(Plotted):
         return (self.sha256, *(sha256 for _, sha256 in files if len(files) > 1))
 
     def scored(self, rows: Bools | None = None) -> dict[str, float]:
-        """The ``scored`` object of the JSON output: rows, share, velocity_threshold.
-
-        Parameters
-        ----------
-        rows : bool array [n]
-            Samples that are scored; default: all that move.
-        """
+        """The ``scored`` object of the JSON output: of the samples `rows` [n], or all that move."""
         count = int((self.moving if rows is None else rows).sum())
         return {
             "rows": count,

@@ -16,6 +16,7 @@ from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
 from stribeck.diagnosis.result import Finding
 from stribeck.diagnosis.trials.evidence import difference, held_out_square
+from stribeck.diagnosis.trials.flexible_refit import free_difference
 from stribeck.diagnosis.trials.imitations import NARROW, standing
 from stribeck.diagnosis.trials.known_size import has_known_size
 from stribeck.diagnosis.trials.screening import screened
@@ -31,6 +32,7 @@ from stribeck.diagnosis.trials.trial import (
 )
 from stribeck.effect.describe import is_friction
 from stribeck.effect.load_parts import HOLDS
+from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids, simpler_effect
 from stribeck.models.formula_law import effect_name
@@ -242,8 +244,11 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
 
     It is where it predicts better by a standard error, or by two with more parameters. Where both
     predict alike, it is if its size is known and the other's is not, if it has fewer parameters, or
-    if it has as many and is a rigid-body or measurement cause in place of friction.
+    if it has as many and is a rigid-body or measurement cause in place of friction. It is not where
+    the present effect, of another form than its law, predicts better.
     """
+    if _fits_in_another_form(finding, by, current):
+        return False
     if worse > _least_lead(by, current):
         return True
     less_friction = is_friction(finding.effect) and not is_friction(by.effect)
@@ -255,6 +260,20 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
         return known
     fewer = len(current.model.names) - by.parameters
     return fewer > 0 or (fewer == 0 and less_friction)
+
+
+def _fits_in_another_form(finding: Finding, by: Trial, current: Fit) -> bool:
+    """Whether a cause other than friction, in its free form, predicts better than one without."""
+    if is_friction(finding.effect) or not _has_free_form(finding.effect, current):
+        return False
+    if _has_free_form(by.effect, by.fit):
+        return False
+    return free_difference(by.fit, current).statistic > TIE
+
+
+def _has_free_form(effect: str, fit: Fit) -> bool:
+    known = find(effect)
+    return known is not None and bool(known.flexible_shape(fit))
 
 
 def _least_lead(by: Trial, current: Fit) -> float:

@@ -27,7 +27,7 @@ from stribeck.diagnosis.trials.evidence import (
     evidence,
     held_out_square,
 )
-from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit
+from stribeck.diagnosis.trials.flexible_refit import Array, FlexibleRefit, free_square
 from stribeck.diagnosis.trials.imitations import NARROW, most_certain
 from stribeck.diagnosis.trials.proxies import alike, fits_exactly
 from stribeck.diagnosis.trials.screening import screened
@@ -134,10 +134,7 @@ class _Others:
     @cached_property
     def free_square(self) -> Array:
         """Squared held-out residual [m] of the last model, its effects in their free forms."""
-        current, free = self.current, FlexibleRefit.of(self.current)
-        if free is not None:
-            return free.held_out**2
-        return current.weighted(current.held_out_residual[current.rows]) ** 2
+        return free_square(self.current)
 
     def weight(self, effect: str, promise: float) -> float:
         """How well another effect predicts: 1 as well, 0 far worse.

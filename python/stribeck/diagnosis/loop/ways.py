@@ -13,10 +13,12 @@ from stribeck.diagnosis.loop.path import Dropped, ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.result import Diagnosis, Finding
 from stribeck.diagnosis.trials.evidence import difference
+from stribeck.diagnosis.trials.flexible_refit import free_difference
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import finding_of
 from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import SIMPLEST, TIE, tie_weight, try_effect
+from stribeck.effect.describe import is_friction
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import simpler_effect
 from stribeck.models.formula_law import effect_name
@@ -93,11 +95,25 @@ def predicts_better(model: Fit, other: Fit) -> bool:
 
 
 def _is_better(way: ImprovementPath, than: ImprovementPath) -> bool:
-    """Whether a way ends better: by two standard errors, or by none with fewer parameters."""
+    """Whether a way ends better: by two standard errors, or by none with fewer parameters.
+
+    Several causes stand in for one whose torque has another form than its law. A way with fewer
+    effects than another, no more of them friction, is therefore compared in free forms too: it is
+    better where it predicts better in these, and worse only if it does not.
+    """
+    of_free_forms = free_difference(than.current, way.current).statistic
     if predicts_better(way.current, than.current):
+        return not _is_smaller(than, way) or of_free_forms > TIE
+    if _is_smaller(way, than) and of_free_forms > TIE:
         return True
     fewer = len(way.current.model.names) < len(than.current.model.names)
     return fewer and difference(way.current, than.current).statistic <= SIMPLEST
+
+
+def _is_smaller(way: ImprovementPath, than: ImprovementPath) -> bool:
+    """Whether a way has fewer effects, and no more of them are friction."""
+    few, many = way.current.model.effects, than.current.model.effects
+    return len(few) < len(many) and sum(map(is_friction, few)) <= sum(map(is_friction, many))
 
 
 def _ends_alike(way: ImprovementPath, other: ImprovementPath) -> bool:

@@ -14,7 +14,7 @@ from stribeck.diagnosis.carrying import fewest
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.effect.base import number
 from stribeck.effect.describe import is_drive_train, is_friction
-from stribeck.effect.registry import of_catalog
+from stribeck.effect.registry import find
 from stribeck.identify.stated.loss import robust_scale
 
 #: Share of the squared error that an effect must explain where it acts, and how many times as large
@@ -29,7 +29,8 @@ def leaves_more(claim: Claim) -> str | None:
     """
     if is_friction(claim.effect) or is_drive_train(claim.effect):
         return None
-    if of_catalog(claim.effect).flexible_shape(claim.after):
+    known = find(claim.effect)
+    if known is not None and known.flexible_shape(claim.after):
         return None
     changed = claim.change**2
     acts = np.argsort(-changed, kind="stable")[: fewest(changed)]

@@ -167,6 +167,19 @@ class FlexibleRefit:
         return fall, p_value
 
 
+def free_square(fitted: Fit) -> Array:
+    """Squared held-out residual [m] of a fit, weighted, its effects in their free forms."""
+    free = FlexibleRefit.of(fitted)
+    if free is not None:
+        return free.held_out**2
+    return np.asarray(fitted.weighted(fitted.held_out_residual[fitted.rows]) ** 2)
+
+
+def free_difference(worse: Fit, better: Fit) -> Difference:
+    """Compare two models, the effects of both in their free forms, on held-out samples."""
+    return Difference.of(free_square(worse) - free_square(better))
+
+
 def _no_worse(held_out: Array, fitted: Fit, before: Fit) -> Array:
     """Held-out residuals [m], but those of `fitted` in the blocks that it predicts better."""
     plain = before.weighted(fitted.held_out_residual[fitted.rows])

@@ -10,7 +10,7 @@ import stribeck as sb
 from stribeck.diagnosis.plausibility import leaves_more as rule
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.leaves_more import leaves_more
-from stribeck.effect.registry import of_catalog
+from stribeck.effect.registry import find
 from synthetic import Array, joint, motion, record
 
 
@@ -43,5 +43,5 @@ def test_a_spring_may_have_another_form(tmp_path: Path, monkeypatch: pytest.Monk
     before = sb.fit("coulomb", record(tmp_path, joint(40.0 * np.maximum(q - 1.05, 0.0), rows=6000)))
     claim = Claim("spring", before, sb.add(before, "spring", starts=2), 0.01)
     assert leaves_more(claim) is None
-    monkeypatch.setattr(rule, "of_catalog", lambda _: of_catalog("delay"))
+    monkeypatch.setattr(rule, "find", lambda _: find("delay"))
     assert leaves_more(claim) is not None
