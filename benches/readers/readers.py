@@ -147,7 +147,7 @@ def measure(kind: str, path: str, ours: bool, rows: int) -> None:
     """Read a file, print the shortest time [s] and the growth of memory [MB] as JSON."""
     import psutil
     from stribeck.recording.formats.door import Asked
-    from stribeck.recording.readers import read_table
+    from stribeck.recording.tables.readers import read_table
 
     asked = Asked(memory_limit=8.0)
     small = write(kind, Path(tempfile.mkdtemp()), 200)

@@ -17,7 +17,7 @@ from stribeck.diagnosis.inspect import inspect as inspect_file
 from stribeck.diagnosis.inspect import write_proposed
 from stribeck.models.catalog import catalog, check_effect, effect_ids, law_row
 from stribeck.models.spec import parse_spec
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.report.catalog import catalog_text, effect_text, law_text
 from stribeck.report.inspection import inspection_text
 

@@ -25,9 +25,9 @@ from stribeck.models.model_file import ModelFile
 from stribeck.models.published.sets import PREFIX
 from stribeck.models.reader import read_model_file
 from stribeck.recording.load import read_with
-from stribeck.recording.options import TABLE, Entry, ReadOptions
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.paths import Given
+from stribeck.recording.stated.options import TABLE, Entry, ReadOptions
 
 
 def finite(value: object) -> object:

@@ -18,8 +18,8 @@ from stribeck.cli.words import complete_model
 from stribeck.identify.stated.statements import names_in
 from stribeck.models.formula_law import is_formula
 from stribeck.models.published.sets import PREFIX
-from stribeck.recording.readers import SUFFIXES
 from stribeck.recording.several.paths import named_files
+from stribeck.recording.tables.readers import SUFFIXES
 
 #: One or several files, folders and patterns.
 data_argument = click.argument("data", nargs=-1, required=True, metavar="DATA...")

@@ -14,8 +14,8 @@ from stribeck.fitting.evaluated import Evaluated
 from stribeck.fitting.result import Fit
 from stribeck.models.reader import read_model_file
 from stribeck.recording.load import read_with
-from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.report.layout import joined, table
 from stribeck.report.numbers import percent, plain
 

@@ -33,7 +33,7 @@ from stribeck.cli.unread import refuse_unread
 from stribeck.cli.words import complete_model
 from stribeck.fitting.evaluate import evaluated_on
 from stribeck.identify.scaling import model_for
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.scale.streaming.result import StreamedFit
 from stribeck.scale.streaming.stream import Stream
 

@@ -23,7 +23,7 @@ from stribeck.cli.progress import Progress, stop_with
 from stribeck.cli.refused import OF_A_FLEET, refusing
 from stribeck.cli.unread import refuse_unread
 from stribeck.identify.stated.choices import Choices
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.scale.fleet.changes import Question
 from stribeck.scale.fleet.fleet import STRAGGLER
 from stribeck.scale.fleet.fleet import fleet as run_fleet

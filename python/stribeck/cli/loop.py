@@ -53,8 +53,8 @@ from stribeck.diagnosis.trials.dry_friction import check_rejected
 from stribeck.fitting.evaluate import evaluated_on
 from stribeck.identify.stated.choices import parameters_of_effects
 from stribeck.models.formula_law import effect_name
-from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
 

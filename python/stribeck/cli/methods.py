@@ -39,8 +39,8 @@ from stribeck.fitting.protocols.points import (
 )
 from stribeck.fitting.result import Estimator, Fit
 from stribeck.models.model import Model
-from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
+from stribeck.recording.stated.options import ReadOptions
 
 
 @dataclass(frozen=True)

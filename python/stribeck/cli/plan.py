@@ -30,7 +30,7 @@ from stribeck.models.model_file import ModelFile
 from stribeck.models.reader import read_model_file
 from stribeck.motion.design.plan import plan as make
 from stribeck.motion.generate.files import file_bytes
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 
 
 @click.command(cls=CheckedCommand)

@@ -18,7 +18,7 @@ from stribeck.cli.data import arguments_of_both, split
 from stribeck.cli.fitted import fits_of
 from stribeck.cli.formulas import Written, formula_options
 from stribeck.cli.outputs import FIGURE, CheckedCommand
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.report.plots.draw import FIGURES
 from stribeck.report.plots.draw import plot as draw
 from stribeck.report.plots.page import width_in_mm

@@ -31,7 +31,7 @@ from stribeck.cli.refused import OF_A_PROJECT, refusing
 from stribeck.cli.unread import refuse_unread
 from stribeck.identify.stated.choices import Choices
 from stribeck.projects.project import Project
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 
 
 @click.group()

@@ -29,7 +29,7 @@ from stribeck.diagnosis.compare import compare
 from stribeck.diagnosis.loop.improve import improve
 from stribeck.fitting.result import Fit
 from stribeck.projects.project import Project
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.report.improvement import summary_sentence
 from stribeck.report.pages.account import error_of, of_improvement, of_project
 

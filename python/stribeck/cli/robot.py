@@ -34,7 +34,7 @@ from stribeck.cli.robot_options import (
 )
 from stribeck.cli.robot_page import robot_report
 from stribeck.cli.robot_runs import Passes, passes_options, read_runs
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.compare import compare_robots

@@ -13,8 +13,8 @@ from stribeck.cli.common import say
 from stribeck.cli.options import Command, Values, gathered
 from stribeck.cli.progress import RowProgress
 from stribeck.cli.unread import refuse_unread
-from stribeck.recording.excerpt import SAMPLE_ROWS
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.motion.excerpt import SAMPLE_ROWS
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.motion import RobotMotion, read_motion
 from stribeck.scale.robots.stream import RobotStream, stream_robot

@@ -10,8 +10,8 @@ import click
 from stribeck.base.errors import SpecError
 from stribeck.cli.common import echo_result, say
 from stribeck.cli.options import Command, Values, gathered
-from stribeck.recording.excerpt import SAMPLE_ROWS
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.motion.excerpt import SAMPLE_ROWS
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.improvement import StreamedImprovement
 from stribeck.scale.streaming.result import StreamedFit

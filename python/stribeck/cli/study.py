@@ -28,7 +28,7 @@ from stribeck.cli.progress import Progress, stop_with
 from stribeck.cli.refused import OF_A_STUDY, refusing
 from stribeck.fitting.evaluate import evaluated, refuse_fitted_on
 from stribeck.identify.stated.choices import Choices
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.scale.study.plan import REVIEW
 from stribeck.scale.study.result import Study
 from stribeck.scale.study.study import study as make_study

@@ -21,7 +21,7 @@ from stribeck.cli.outputs import FIGURE, CheckedCommand
 from stribeck.cli.refused import OF_A_SPEC, refusing
 from stribeck.motion.simulate.joint import Joint
 from stribeck.motion.simulate.validation import validate as drive
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 
 
 @click.command(cls=CheckedCommand)

@@ -38,7 +38,7 @@ from stribeck.identify.search.effort import FROM_NEARBY
 from stribeck.identify.stated.choices import ChoiceArguments, parameters_of_effects
 from stribeck.models.catalog import effect_ids
 from stribeck.models.formula_law import effect_name
-from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
+from stribeck.recording.motion.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.several.concat import Recordings
 
 if TYPE_CHECKING:

@@ -20,16 +20,16 @@ from stribeck.identify.left_out.rows import scored_rows
 from stribeck.identify.scaling import rigid_body_terms
 from stribeck.models.catalog import effect_ids
 from stribeck.models.rigid_body import own_load
-from stribeck.recording.assemble import nothing_moves
+from stribeck.recording.assembly.assemble import nothing_moves
 from stribeck.recording.check import Check
 from stribeck.recording.load import Given, read_with
-from stribeck.recording.options import ReadArguments, ReadOptions, split_pairs
-from stribeck.recording.proposals import Proposal, propose
-from stribeck.recording.proposed_sidecar import write_sidecar
+from stribeck.recording.naming.proposals import Proposal, propose
 from stribeck.recording.recording import Column, Recording
-from stribeck.recording.scan import Table, scan_with
 from stribeck.recording.several.paths import listed_files, text_of
 from stribeck.recording.several.scan import joined_table
+from stribeck.recording.stated.options import ReadArguments, ReadOptions, split_pairs
+from stribeck.recording.whole_file.proposed_sidecar import write_sidecar
+from stribeck.recording.whole_file.scan import Table, scan_with
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

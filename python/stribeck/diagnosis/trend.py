@@ -24,7 +24,7 @@ from stribeck.identify.errors.estimates import APART
 from stribeck.identify.figures import rms
 from stribeck.identify.problem import Problem
 from stribeck.models.parts import friction_parts
-from stribeck.recording.moves import moves
+from stribeck.recording.motion.moves import moves
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

@@ -7,7 +7,7 @@ import numpy as np
 from stribeck.effect.base import Effect, Identified, JointSizes, Obstacle, ResidualView, number
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.inertia import hardly_accelerates
-from stribeck.recording.velocity_lag import recorded_lag
+from stribeck.recording.motion.velocity_lag import recorded_lag
 
 #: Largest ratio of a delay to the lag of the velocity that explains it: a filter acts most on the
 #: fast motions that show a delay.

@@ -23,9 +23,9 @@ from stribeck.effect.resonance import NONE, resonances
 from stribeck.models.model import Model
 from stribeck.models.parameter import joint_unit
 from stribeck.recording.derive import Smoother
+from stribeck.recording.motion.spring_torque import Resonance
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import noise_level
-from stribeck.recording.spring_torque import Resonance
 
 #: A drive train that resonates at a lower frequency shows in any joint, Hz.
 SOFT_DRIVE = 5.0

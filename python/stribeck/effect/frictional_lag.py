@@ -18,8 +18,8 @@ from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.free_form import OF_SPEED
 from stribeck.effect.stribeck import SLOW, no_slow_motion
 from stribeck.models.model import Model
-from stribeck.recording.derived_motion import cutoff_of
-from stribeck.recording.moves import move_seconds, moves
+from stribeck.recording.motion.derived_motion import cutoff_of
+from stribeck.recording.motion.moves import move_seconds, moves
 from stribeck.recording.recording import Recording
 
 #: In so many moves the joint must speed up at slow speeds, and in as many slow down, so much that

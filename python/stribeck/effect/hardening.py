@@ -22,8 +22,8 @@ from stribeck.effect.resonance import (
     beyond,
     is_possible,
 )
+from stribeck.recording.motion.spring_torque import Resonance
 from stribeck.recording.recording import Recording
-from stribeck.recording.spring_torque import Resonance
 
 Array = NDArray[np.float64]
 

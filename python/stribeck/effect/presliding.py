@@ -15,7 +15,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.columns import displacement_since_reversal, hats
 from stribeck.effect.facts import RecordingFacts
-from stribeck.recording.moves import moves
+from stribeck.recording.motion.moves import moves
 
 #: Reversals needed to see what happens in them.
 FEWEST_REVERSALS = 4

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from stribeck.base import linear
 from stribeck.recording.derive import Smoother
+from stribeck.recording.motion.spring_torque import Resonance
 from stribeck.recording.recording import Recording
-from stribeck.recording.spring_torque import Resonance
 
 Array = NDArray[np.float64]
 

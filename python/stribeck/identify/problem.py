@@ -19,8 +19,8 @@ from stribeck.identify.triangle import Triangle, triangles
 from stribeck.identify.weights import root_weights
 from stribeck.models.channels import ChannelArguments
 from stribeck.models.model import Model
+from stribeck.recording.motion.spring_torque import Resonance
 from stribeck.recording.recording import Recording
-from stribeck.recording.spring_torque import Resonance
 
 Array = NDArray[np.float64]
 

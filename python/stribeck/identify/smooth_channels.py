@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.recording.moves import directions
+from stribeck.recording.motion.moves import directions
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]

@@ -38,8 +38,8 @@ from stribeck.projects.tables import project_dict, project_frame
 from stribeck.projects.tree import Tree
 from stribeck.projects.write import write_project
 from stribeck.recording.load import Given
-from stribeck.recording.options import ReadArguments
 from stribeck.recording.recording import Recording
+from stribeck.recording.stated.options import ReadArguments
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 
 from stribeck.base.errors import ProjectError
 from stribeck.recording.load import Given, read
-from stribeck.recording.options import TABLE
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.join import joined_hash
 from stribeck.recording.several.paths import listed_files, text_of
-from stribeck.recording.sidecar import find_sidecar
+from stribeck.recording.stated.options import TABLE
+from stribeck.recording.stated.sidecar import find_sidecar
 
 #: Keys of ``[reading]``: the options of `stribeck.read`.
 READING = tuple(entry.name for entry in TABLE)

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError
-from stribeck.recording.assemble import build
-from stribeck.recording.one import of_joint, read_one
-from stribeck.recording.options import ReadArguments, ReadOptions
-from stribeck.recording.readers import Source
+from stribeck.recording.assembly.assemble import build
+from stribeck.recording.assembly.one import of_joint, read_one
 from stribeck.recording.recording import Recording
-from stribeck.recording.settings import gather
 from stribeck.recording.several.paths import Given, listed_files, run_names, text_of
 from stribeck.recording.several.read import read_several
-from stribeck.recording.table import joint_rows, joints_of, prepare
-from stribeck.recording.tables import is_table, table_source
+from stribeck.recording.stated.options import ReadArguments, ReadOptions
+from stribeck.recording.stated.settings import gather
+from stribeck.recording.tables.in_memory import is_table, table_source
+from stribeck.recording.tables.readers import Source
+from stribeck.recording.whole_file.table import joint_rows, joints_of, prepare
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -17,8 +17,8 @@ from stribeck.base.shown import Plotted
 from stribeck.recording.arrays import Bools, Floats, Ints, Numbers
 from stribeck.recording.check import Check
 from stribeck.recording.derive import curvature, slow_rate
-from stribeck.recording.origin import Origin
 from stribeck.recording.rows import SIGMAS, noise_level, segment_slices
+from stribeck.recording.stated.origin import Origin
 
 __all__ = ["Column", "Recording"]
 
@@ -217,7 +217,7 @@ class Recording(Plotted):
         ... )
         <Recording the given table: 500 rows, 1 run, 100 Hz, revolute, N m>
         """
-        made: Recording = _of_room("given_columns").from_columns(units, columns)
+        made: Recording = _of_room("assembly.given_columns").from_columns(units, columns)
         return made
 
     def where(self, condition: str) -> Recording:

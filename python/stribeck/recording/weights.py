@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats, Ints, floats
-from stribeck.recording.computed import column_of
-from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
+from stribeck.recording.tables.computed import column_of
+from stribeck.recording.tables.readers import Source
 
 __all__ = ["check_scored_weights", "refuse_weights", "table_weights", "with_weights"]
 

@@ -14,7 +14,7 @@ from stribeck.effect.columns import displacement_since_reversal
 from stribeck.effect.registry import find
 from stribeck.effect.ripple import ripple_period_of
 from stribeck.identify.figures import bridged, zero_phase
-from stribeck.recording.spring_torque import Resonance
+from stribeck.recording.motion.spring_torque import Resonance
 
 if TYPE_CHECKING:
     from stribeck.fitting.result import Fit

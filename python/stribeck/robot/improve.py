@@ -156,7 +156,7 @@ def improve_robot(
     --------
     >>> import tempfile
     >>> from pathlib import Path
-    >>> from stribeck.recording.options import ReadOptions
+    >>> from stribeck.recording.stated.options import ReadOptions
     >>> import numpy as np
     >>> from stribeck import model, robot
     >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}], gravity=(0.0, -9.81, 0.0))

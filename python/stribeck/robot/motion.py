@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from stribeck.base.errors import RecordingError, joint_called, option
 from stribeck.base.low_pass import zero_phase
 from stribeck.recording.load import read_with
-from stribeck.recording.options import ReadOptions, split_pairs
 from stribeck.recording.recording import Column, Recording
+from stribeck.recording.stated.options import ReadOptions, split_pairs
 from stribeck.robot.arm import Robot
 from stribeck.robot.coupled import motor_columns
 
@@ -186,7 +186,7 @@ def read_motion(
     --------
     >>> import tempfile
     >>> from pathlib import Path
-    >>> from stribeck.recording.options import ReadOptions
+    >>> from stribeck.recording.stated.options import ReadOptions
     >>> import numpy as np
     >>> from stribeck import model, robot
     >>> arm = robot.from_tables("planar", [{"a": 0.4}, {"a": 0.3}], gravity=(0.0, -9.81, 0.0))

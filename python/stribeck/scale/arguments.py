@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 from stribeck.identify.stated.choices import CHOICE_NAMES, ChoiceArguments, Choices
-from stribeck.recording.options import ReadArguments, ReadOptions
+from stribeck.recording.stated.options import ReadArguments, ReadOptions
 
 __all__ = ["ScaleArguments", "split_arguments"]
 

@@ -16,7 +16,7 @@ from stribeck.benchmark.generators import GENERATORS
 from stribeck.effect import hardening
 from stribeck.effect.describe import where
 from stribeck.effect.resonance import best_resonance
-from stribeck.recording.spring_torque import Resonance
+from stribeck.recording.motion.spring_torque import Resonance
 from stribeck.report.finding_view import finding_view
 from synthetic import joint, motion, record
 

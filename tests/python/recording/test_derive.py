@@ -14,11 +14,11 @@ import pytest
 import stribeck as sb
 from stribeck import _core
 from stribeck.base.errors import RecordingError
-from stribeck.recording.column_functions import table_problem
-from stribeck.recording.formula import compile_formula
-from stribeck.recording.options import ReadOptions
-from stribeck.recording.settings import gather
-from stribeck.recording.table import prepare
+from stribeck.recording.stated.options import ReadOptions
+from stribeck.recording.stated.settings import gather
+from stribeck.recording.tables.column_functions import table_problem
+from stribeck.recording.tables.formula import compile_formula
+from stribeck.recording.whole_file.table import prepare
 
 Write = Callable[..., Path]
 

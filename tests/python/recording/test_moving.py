@@ -9,8 +9,8 @@ import scipy
 import stribeck as sb
 from stribeck.diagnosis.inspect import inspect
 from stribeck.recording.derive import Smoother
-from stribeck.recording.derived_motion import filtered_noise
 from stribeck.recording.load import read
+from stribeck.recording.motion.derived_motion import filtered_noise
 from stribeck.recording.rows import noise_level, slope_noise
 from stribeck.report.inspection import inspection_text
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from stribeck.base.errors import RecordingError
 from stribeck.recording.load import read
-from stribeck.recording.scan import scan
+from stribeck.recording.whole_file.scan import scan
 
 from .conftest import CASES, DATA, SIDECARS
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.motion.generate.hidden import generate
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.robot.motion import RobotMotion, read_motion
 from stribeck.robot.simulate import COLUMNS, simulate_robot
 from stribeck.robot.tables import from_tables

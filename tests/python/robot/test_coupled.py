@@ -10,7 +10,7 @@ import polars as pl
 import pytest
 import stribeck as sb
 from stribeck.base.errors import ModelFileError, RecordingError
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters
 from stribeck.robot.describe import read_robot

@@ -15,7 +15,7 @@ from stribeck.base.errors import SpecError
 from stribeck.cli.main import cli
 from stribeck.motion.simulate.drive import Torque
 from stribeck.motion.simulate.joint import Joint
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.fit import fit_robot
 from stribeck.robot.follow import follow_robot

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.improve import improve_robot
 from stribeck.robot.motion import read_motion

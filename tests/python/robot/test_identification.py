@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from stribeck.base.errors import FitError, ModelFileError, RecordingError, SpecError
 from stribeck.cli.main import cli
 from stribeck.motion.design.motion import Limits, SampledMotion
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.report.pages.robot import robot_fit_page
 from stribeck.robot.arm import Robot
 from stribeck.robot.base_parameters import BaseParameters

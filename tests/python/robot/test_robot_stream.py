@@ -15,7 +15,7 @@ import stribeck as sb
 from click.testing import CliRunner
 from stribeck.base.errors import FitError, RecordingError
 from stribeck.cli.main import cli
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.drive_gains import KnownPayload
 from stribeck.robot.fit import fit_robot

@@ -131,7 +131,7 @@ def arm_answer(case: ArmCase) -> ArmAnswer:
 
 
 def _diagnosed(case: ArmCase) -> ArmAnswer:
-    from stribeck.recording.options import ReadOptions
+    from stribeck.recording.stated.options import ReadOptions
     from stribeck.robot.improve import improve_robot
     from stribeck.robot.motion import read_motion
 

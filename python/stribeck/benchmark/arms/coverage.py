@@ -48,7 +48,7 @@ class ArmIntervals:
 
 def arm_intervals(case: ArmCase) -> ArmIntervals:
     """Identify an arm whose friction is exactly Coulomb and viscous; its last run has a payload."""
-    from stribeck.recording.options import ReadOptions
+    from stribeck.recording.stated.options import ReadOptions
     from stribeck.robot.fit import fit_robot
     from stribeck.robot.motion import read_motion
     from stribeck.robot.simulate import COLUMNS

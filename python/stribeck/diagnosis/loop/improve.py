@@ -39,7 +39,7 @@ from stribeck.identify.search.effort import FROM_NEARBY
 from stribeck.identify.stated.choices import ChoiceArguments, Choices, parameters_of_effects
 from stribeck.models.model import Model
 from stribeck.models.model_file import MODEL
-from stribeck.recording.excerpt import SAMPLE_ROWS, excerpt
+from stribeck.recording.motion.excerpt import SAMPLE_ROWS, excerpt
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.concat import Recordings, as_one
 

@@ -11,8 +11,8 @@ from stribeck.diagnosis.measurement.cause import Array, MeasurementCause
 from stribeck.fitting.result import Fit
 from stribeck.identify.figures import rms
 from stribeck.recording.derive import Smoother
-from stribeck.recording.derived_motion import cutoff_of
 from stribeck.recording.mend.load_of_motion import differing, slow_motion
+from stribeck.recording.motion.derived_motion import cutoff_of
 from stribeck.recording.recording import Recording
 
 #: Least difference, as a share of the load torque.

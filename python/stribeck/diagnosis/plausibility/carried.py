@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stribeck.diagnosis.carrying import fewest
 from stribeck.diagnosis.plausibility.claim import Claim
-from stribeck.recording.moves import moves
+from stribeck.recording.motion.moves import moves
 
 Array = NDArray[np.float64]
 

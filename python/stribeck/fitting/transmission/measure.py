@@ -13,7 +13,7 @@ from stribeck.base.shown import Shown
 from stribeck.fitting.fit import fit
 from stribeck.fitting.transmission.flanks import Flanks, fit_flanks
 from stribeck.fitting.transmission.windup import Windup
-from stribeck.recording.excerpt import excerpt
+from stribeck.recording.motion.excerpt import excerpt
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import quantisation_step
 

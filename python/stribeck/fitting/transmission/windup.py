@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import FitError, option
 from stribeck.recording.derive import Smoother, choose_cutoff
-from stribeck.recording.derived_motion import acceleration_cutoff, slope
+from stribeck.recording.motion.derived_motion import acceleration_cutoff, slope
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import SIGMAS, noise_level, segment_slices
 

@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from stribeck.base import linear
 from stribeck.identify.figures import zero_phase
 from stribeck.identify.normal import NormalEquations
+from stribeck.recording.blocks.speeds_once import passes_speeds_once
 from stribeck.recording.recording import Recording
-from stribeck.recording.speeds_once import passes_speeds_once
 
 Array = NDArray[np.float64]
 

@@ -13,8 +13,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.recording.motion.velocity_lag import VelocityLag, recorded_lag
 from stribeck.recording.recording import Recording
-from stribeck.recording.velocity_lag import VelocityLag, recorded_lag
 
 #: Lag in samples below which no sample is left out.
 LEAST = 1.0

@@ -6,10 +6,10 @@ import numpy as np
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats
-from stribeck.recording.cells import column_numbers
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.view import View
-from stribeck.recording.names import any_index, parse_name
+from stribeck.recording.naming.names import any_index, parse_name
+from stribeck.recording.tables.cells import column_numbers
 
 __all__ = ["check_current"]
 

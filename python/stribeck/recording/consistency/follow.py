@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.recording.arrays import Floats, Ints
-from stribeck.recording.excerpt import stretches
+from stribeck.recording.motion.excerpt import stretches
 from stribeck.recording.rows import noise_level
 
 __all__ = ["Follows", "Track", "follows"]

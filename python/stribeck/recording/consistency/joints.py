@@ -7,7 +7,7 @@ from collections import Counter
 from stribeck.base.errors import option
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.view import View
-from stribeck.recording.names import any_index, same_of_joint
+from stribeck.recording.naming.names import any_index, same_of_joint
 
 __all__ = ["check_joints"]
 

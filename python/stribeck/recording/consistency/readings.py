@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from stribeck.base.units import Unit, find_unit, known_units
-from stribeck.recording.names import CHANNELS
+from stribeck.recording.naming.names import CHANNELS
 
 __all__ = ["Source", "best_reading", "named_ratio"]
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats
-from stribeck.recording.cells import column_numbers
 from stribeck.recording.consistency.dissipation import dissipation
 from stribeck.recording.consistency.follow import Follows, follows
 from stribeck.recording.consistency.readings import best_reading, named_ratio
 from stribeck.recording.consistency.view import View
+from stribeck.recording.tables.cells import column_numbers
 
 __all__ = ["PHASE", "Pair", "agreement", "other_column", "ratio_text", "scale_remedy"]
 

@@ -19,8 +19,8 @@ from stribeck.recording.consistency.torque import check_torque
 from stribeck.recording.consistency.turn import check_turn
 from stribeck.recording.consistency.velocity import check_velocity
 from stribeck.recording.consistency.view import View
-from stribeck.recording.prepared import Prepared
 from stribeck.recording.recording import Recording
+from stribeck.recording.tables.prepared import Prepared
 
 __all__ = ["checked"]
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats
-from stribeck.recording.cells import column_numbers
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.dissipation import Dissipation, Estimate, dissipation
 from stribeck.recording.consistency.view import View
-from stribeck.recording.names import parse_name, same_of_joint
+from stribeck.recording.naming.names import parse_name, same_of_joint
+from stribeck.recording.tables.cells import column_numbers
 
 __all__ = ["check_torque"]
 

@@ -13,9 +13,9 @@ from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.consistency.dissipation import Dissipation, dissipation
 from stribeck.recording.consistency.follow import Follows, Track, follows
 from stribeck.recording.consistency.readings import Source
-from stribeck.recording.names import same_of_joint
-from stribeck.recording.prepared import Prepared, columns_of
+from stribeck.recording.naming.names import same_of_joint
 from stribeck.recording.recording import Recording
+from stribeck.recording.tables.prepared import Prepared, columns_of
 
 __all__ = ["View", "quoted"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from stribeck.base.units import find_unit
-from stribeck.recording.names import file_unit
+from stribeck.recording.naming.names import file_unit
 
 __all__ = ["with_unit"]
 

@@ -11,7 +11,7 @@ import polars as pl
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.formats.door import Asked, Entered
-from stribeck.recording.names import parse_name
+from stribeck.recording.naming.names import parse_name
 
 __all__ = ["Part", "Read", "chosen", "merged"]
 

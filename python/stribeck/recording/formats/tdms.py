@@ -16,7 +16,7 @@ from stribeck.recording.formats.arrays import Array
 from stribeck.recording.formats.door import Asked, Entered, missing_library, short
 from stribeck.recording.formats.names import with_unit
 from stribeck.recording.formats.part import Part, Read, chosen, merged
-from stribeck.recording.names import parse_name
+from stribeck.recording.naming.names import parse_name
 
 if TYPE_CHECKING:
     from nptdms import TdmsChannel, TdmsGroup

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.recording.arrays import Bools, Floats, Ints
-from stribeck.recording.cells import column_numbers
-from stribeck.recording.channels import MEASURED, Channels
-from stribeck.recording.names import wide_groups
+from stribeck.recording.joint.channels import MEASURED, Channels
+from stribeck.recording.naming.names import wide_groups
 from stribeck.recording.rows import quantisation_step
+from stribeck.recording.tables.cells import column_numbers
 
 __all__ = ["Held"]
 

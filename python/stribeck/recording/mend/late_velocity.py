@@ -15,11 +15,11 @@ import numpy as np
 from stribeck.base import linear
 from stribeck.base.errors import option
 from stribeck.recording.arrays import Bools, Floats, Ints
-from stribeck.recording.channels import Channels
 from stribeck.recording.consistency.follow import Track, follows
 from stribeck.recording.consistency.remedy import PHASE
+from stribeck.recording.joint.channels import Channels
+from stribeck.recording.motion.velocity_lag import velocity_lag
 from stribeck.recording.rows import neighbour
-from stribeck.recording.velocity_lag import velocity_lag
 
 __all__ = ["Moved", "late", "note", "torque_follows"]
 

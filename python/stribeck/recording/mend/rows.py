@@ -7,7 +7,7 @@ import scipy
 
 from stribeck.base.errors import RecordingError
 from stribeck.recording.arrays import Bools, Floats, Ints
-from stribeck.recording.channels import Channels
+from stribeck.recording.joint.channels import Channels
 from stribeck.recording.mend.held import Held
 
 __all__ = ["drop_bad_rows"]

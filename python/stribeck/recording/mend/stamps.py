@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stribeck.recording.arrays import Ints
-from stribeck.recording.channels import Channels
+from stribeck.recording.joint.channels import Channels
 
 __all__ = ["drop_repeated_stamps"]
 

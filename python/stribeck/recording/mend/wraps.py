@@ -8,9 +8,9 @@ import numpy as np
 
 from stribeck.base.errors import option
 from stribeck.recording.arrays import Floats, Ints
-from stribeck.recording.channels import Channels
 from stribeck.recording.check import Check
 from stribeck.recording.consistency.follow import Track, follows
+from stribeck.recording.joint.channels import Channels
 from stribeck.recording.rows import segment_rows
 
 __all__ = ["unwrap"]

@@ -10,13 +10,13 @@ import polars as pl
 from stribeck.base.arguments import door
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats
-from stribeck.recording.column_functions import Over
-from stribeck.recording.computed import apply_formulas
-from stribeck.recording.joint_units import current_of
-from stribeck.recording.readers import Source
+from stribeck.recording.joint.units import current_of
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.join import join
 from stribeck.recording.several.part import Part
+from stribeck.recording.tables.column_functions import Over
+from stribeck.recording.tables.computed import apply_formulas
+from stribeck.recording.tables.readers import Source
 
 __all__ = ["where"]
 

@@ -11,21 +11,21 @@ import numpy as np
 import polars as pl
 
 from stribeck.recording.arrays import Floats, Ints, ints
-from stribeck.recording.assemble import completed, settled
-from stribeck.recording.channels import Channels, Layout
+from stribeck.recording.assembly.assemble import completed, settled
+from stribeck.recording.blocks.hold_out import with_hold_out
+from stribeck.recording.blocks.repeated_motion import held_out_together
+from stribeck.recording.blocks.speeds_once import held_out_in_turn
 from stribeck.recording.check import Check
-from stribeck.recording.columns import Choice
 from stribeck.recording.consistency.runs import OF_RUNS, between_runs
-from stribeck.recording.hold_out import with_hold_out
-from stribeck.recording.origin import Origin
-from stribeck.recording.prepared import Prepared
-from stribeck.recording.readers import Source
+from stribeck.recording.joint.channels import Channels, Layout
+from stribeck.recording.naming.columns import Choice
 from stribeck.recording.recording import Column, Recording
-from stribeck.recording.repeated_motion import held_out_together
 from stribeck.recording.rows import MANY_RUNS
 from stribeck.recording.several.agree import check_agreement
 from stribeck.recording.several.part import Part, joined_values
-from stribeck.recording.speeds_once import held_out_in_turn
+from stribeck.recording.stated.origin import Origin
+from stribeck.recording.tables.prepared import Prepared
+from stribeck.recording.tables.readers import Source
 
 __all__ = ["join", "joined_hash"]
 

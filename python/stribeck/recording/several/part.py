@@ -10,10 +10,10 @@ import polars as pl
 
 from stribeck.base.errors import RecordingError
 from stribeck.recording.arrays import Floats, Ints
-from stribeck.recording.channels import Channels, Layout
 from stribeck.recording.check import Check
+from stribeck.recording.joint.channels import Channels, Layout
 from stribeck.recording.recording import Column, Recording
-from stribeck.recording.settings import Settings
+from stribeck.recording.stated.settings import Settings
 
 __all__ = ["Part", "joined_values"]
 

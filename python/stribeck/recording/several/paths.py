@@ -11,8 +11,8 @@ from typing import TypeAlias
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.base.replaceable import kind_of
-from stribeck.recording.options import FilePath
-from stribeck.recording.readers import SUFFIXES
+from stribeck.recording.stated.options import FilePath
+from stribeck.recording.tables.readers import SUFFIXES
 
 __all__ = [
     "Given",

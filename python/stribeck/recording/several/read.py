@@ -9,16 +9,16 @@ import polars as pl
 
 from stribeck.base.errors import RecordingError, nearest, option
 from stribeck.recording.arrays import Ints
-from stribeck.recording.assemble import completed, load_channels, torque_place
-from stribeck.recording.cells import labels
+from stribeck.recording.assembly.assemble import completed, load_channels, torque_place
+from stribeck.recording.assembly.one import one_joint
 from stribeck.recording.consistency.run import checked
-from stribeck.recording.one import one_joint
-from stribeck.recording.options import ReadOptions
-from stribeck.recording.prepared import Prepared
-from stribeck.recording.readers import Source
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.join import join
 from stribeck.recording.several.part import Part
+from stribeck.recording.stated.options import ReadOptions
+from stribeck.recording.tables.cells import labels
+from stribeck.recording.tables.prepared import Prepared
+from stribeck.recording.tables.readers import Source
 
 __all__ = ["read_several"]
 

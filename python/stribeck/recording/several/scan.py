@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.recording import Column
-from stribeck.recording.scan import Table
 from stribeck.recording.several.paths import run_names
+from stribeck.recording.whole_file.scan import Table
 
 __all__ = ["joined_table"]
 

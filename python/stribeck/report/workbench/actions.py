@@ -21,9 +21,9 @@ from stribeck.passivity.check import check
 from stribeck.projects.project import Project
 from stribeck.projects.sides import Sides
 from stribeck.recording.load import read_with
-from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
-from stribeck.recording.scan import FileColumn
+from stribeck.recording.stated.options import ReadOptions
+from stribeck.recording.whole_file.scan import FileColumn
 from stribeck.report.pages.account import of_project
 from stribeck.report.pages.recording import account_page
 from stribeck.report.workbench.work import Telling

@@ -18,10 +18,10 @@ from stribeck.motion.generate.files import file_bytes
 from stribeck.passivity.certificate import Certificate
 from stribeck.projects.project import Project
 from stribeck.projects.sides import Sides
-from stribeck.recording.options import ReadOptions
-from stribeck.recording.readers import SUFFIXES
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.paths import named_files
+from stribeck.recording.stated.options import ReadOptions
+from stribeck.recording.tables.readers import SUFFIXES
 from stribeck.report.workbench import actions
 from stribeck.report.workbench.actions import Changed, Looked, RobotPage
 from stribeck.report.workbench.state import Joint, Message, State

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 
 from stribeck.base.errors import SpecError, nearest
 from stribeck.passivity.operating_box import parse_sides
-from stribeck.recording.options import TABLE, ReadOptions
+from stribeck.recording.stated.options import TABLE, ReadOptions
 from stribeck.report.workbench.actions import Limits
 from stribeck.report.workbench.controller import Workbench
 

@@ -12,9 +12,9 @@ from stribeck.motion.design.result import Plan
 from stribeck.passivity.certificate import Certificate
 from stribeck.projects.project import Project
 from stribeck.projects.sides import Sides
-from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
 from stribeck.recording.several.paths import text_of
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.report.workbench.actions import Looked
 
 

@@ -15,8 +15,8 @@ from stribeck.effect.registry import of_catalog
 from stribeck.models.catalog import catalog, effect_ids, law_ids
 from stribeck.passivity.friction import friction_part
 from stribeck.recording.check import Check
-from stribeck.recording.names import CHANNELS
-from stribeck.recording.options import TABLE, ReadOptions
+from stribeck.recording.naming.names import CHANNELS
+from stribeck.recording.stated.options import TABLE, ReadOptions
 from stribeck.report.certificate import certificate_parts
 from stribeck.report.comparison import worst_places
 from stribeck.report.diagnosis import (

@@ -26,7 +26,7 @@ from stribeck.models.model_file import ModelFile
 from stribeck.models.published.sets import PREFIX
 from stribeck.models.reader import read_model_file
 from stribeck.models.spec import parse_spec
-from stribeck.recording.sidecar import read_sidecar
+from stribeck.recording.stated.sidecar import read_sidecar
 from stribeck.scale.arguments import ScaleArguments, split_arguments
 from stribeck.scale.fleet.backend import backend_of
 from stribeck.scale.fleet.changes import Question, find_changes

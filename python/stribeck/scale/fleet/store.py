@@ -19,7 +19,7 @@ import polars as pl
 from stribeck.base.errors import StribeckError, option
 from stribeck.base.files import write_bytes_whole
 from stribeck.base.run_folder import MANIFEST, claim, unwritable
-from stribeck.recording.sidecar import sidecar_hash
+from stribeck.recording.stated.sidecar import sidecar_hash
 from stribeck.scale.fleet.task import File, Task, TaskResult, Work
 
 RESULTS = "results"

@@ -18,10 +18,10 @@ from stribeck.base.errors import RecordingError, StribeckError, nearest, option
 from stribeck.base.version import __version__
 from stribeck.identify.stated.choices import Choices
 from stribeck.recording.load import read_with
-from stribeck.recording.options import ReadOptions
-from stribeck.recording.readers import read_table
-from stribeck.recording.scan import scan_with
-from stribeck.recording.sidecar import sidecar_hash
+from stribeck.recording.stated.options import ReadOptions
+from stribeck.recording.stated.sidecar import sidecar_hash
+from stribeck.recording.tables.readers import read_table
+from stribeck.recording.whole_file.scan import scan_with
 from stribeck.scale.fleet.identified import IMPROVE, Identified, identify, start_model
 from stribeck.scale.fleet.naming import as_date
 

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from stribeck.base.errors import RecordingError, option
 from stribeck.identify.scaling import model_for
 from stribeck.models.model import Model
-from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
-from stribeck.recording.settings import Settings, gather
 from stribeck.recording.several.paths import listed_files, run_names, text_of
+from stribeck.recording.stated.options import ReadOptions
+from stribeck.recording.stated.settings import Settings, gather
 from stribeck.robot.arm import Robot
 from stribeck.robot.fit import ORDINARY
 from stribeck.robot.motion import BEFORE, RobotMotion, default_cutoff, joint_options

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from stribeck.recording.excerpt import SAMPLE_ROWS
-from stribeck.recording.options import ReadArguments, ReadOptions
+from stribeck.recording.motion.excerpt import SAMPLE_ROWS
+from stribeck.recording.stated.options import ReadArguments, ReadOptions
 from stribeck.robot.arm import Robot
 from stribeck.robot.fit import balance_of
 from stribeck.robot.motion import RobotMotion

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from stribeck.models.model import Model
-from stribeck.recording.derived_motion import cutoff_of
+from stribeck.recording.motion.derived_motion import cutoff_of
 from stribeck.recording.recording import Recording
 
 __all__ = ["Margin", "smoothed"]

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.recording.channels import Channels
 from stribeck.recording.derive import Smoother
+from stribeck.recording.joint.channels import Channels
 
 __all__ = ["MotionChannels"]
 

@@ -10,13 +10,13 @@ import polars as pl
 from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError, option
-from stribeck.recording.assemble import build
-from stribeck.recording.columns import Choice
-from stribeck.recording.excerpt import stretches
-from stribeck.recording.readers import Source
+from stribeck.recording.assembly.assemble import build
+from stribeck.recording.motion.excerpt import stretches
+from stribeck.recording.naming.columns import Choice
 from stribeck.recording.recording import Recording
-from stribeck.recording.settings import Settings
-from stribeck.recording.table import Prepared, joint_rows, prepared_table
+from stribeck.recording.stated.settings import Settings
+from stribeck.recording.tables.readers import Source
+from stribeck.recording.whole_file.table import Prepared, joint_rows, prepared_table
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.runs import block_edges, run_starts
 

@@ -24,9 +24,9 @@ from stribeck.identify.stated.choices import (
     refuse_statements,
 )
 from stribeck.models.model import Model
-from stribeck.recording.excerpt import SAMPLE_ROWS
-from stribeck.recording.options import ReadArguments, ReadOptions
-from stribeck.recording.settings import gather
+from stribeck.recording.motion.excerpt import SAMPLE_ROWS
+from stribeck.recording.stated.options import ReadArguments, ReadOptions
+from stribeck.recording.stated.settings import gather
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.diagnosis import StreamedDiagnosis
 from stribeck.scale.streaming.fit import streamed_fit

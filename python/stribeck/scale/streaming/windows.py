@@ -12,18 +12,18 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.models.model import Model
-from stribeck.recording.cells import labels
-from stribeck.recording.channels import Channels, wanted_channels
-from stribeck.recording.computed import apply_formulas
 from stribeck.recording.derive import Smoother
-from stribeck.recording.derived_motion import cutoff_of
-from stribeck.recording.drive import with_drive
-from stribeck.recording.joint_units import settle_units
-from stribeck.recording.loads import measured_torque, rigid_body_load
-from stribeck.recording.prepared import Prepared
-from stribeck.recording.readers import Source
+from stribeck.recording.joint.channels import Channels, wanted_channels
+from stribeck.recording.joint.drive import with_drive
+from stribeck.recording.joint.loads import measured_torque, rigid_body_load
+from stribeck.recording.joint.units import settle_units
+from stribeck.recording.motion.derived_motion import cutoff_of
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import predictable, segment_rows
+from stribeck.recording.tables.cells import labels
+from stribeck.recording.tables.computed import apply_formulas
+from stribeck.recording.tables.prepared import Prepared
+from stribeck.recording.tables.readers import Source
 from stribeck.scale.streaming.dataset import DataSet
 from stribeck.scale.streaming.margin import Margin, smoothed
 from stribeck.scale.streaming.motion import MotionChannels

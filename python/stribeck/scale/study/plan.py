@@ -14,10 +14,10 @@ from stribeck.identify.stated.choices import Choices
 from stribeck.models.model import Model
 from stribeck.models.spec import parse_spec
 from stribeck.recording.load import read_with
-from stribeck.recording.options import ReadOptions
 from stribeck.recording.recording import Recording
-from stribeck.recording.scan import scan_with
-from stribeck.recording.sidecar import sidecar_hash
+from stribeck.recording.stated.options import ReadOptions
+from stribeck.recording.stated.sidecar import sidecar_hash
+from stribeck.recording.whole_file.scan import scan_with
 
 #: The 25 laws of the review, in the order of its tables 1, 2 and 3.
 REVIEW = (

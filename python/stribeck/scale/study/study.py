@@ -18,7 +18,7 @@ from stribeck.base.pool import Stopped, worker_count
 from stribeck.base.shown import draw
 from stribeck.identify.search.algorithms import GLOBAL
 from stribeck.identify.stated.choices import Choices
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.scale.arguments import ScaleArguments, split_arguments
 from stribeck.scale.study.assess import Assessed, JointTrials, assess_joint
 from stribeck.scale.study.desk import Desk, StudyWorkers, study_workers

@@ -9,7 +9,7 @@ import polars as pl
 import pytest
 from stribeck.base.errors import RecordingError
 from stribeck.recording.load import read
-from stribeck.recording.scan import scan
+from stribeck.recording.whole_file.scan import scan
 
 from . import written
 

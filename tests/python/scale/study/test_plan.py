@@ -8,7 +8,7 @@ import pytest
 from stribeck.base.errors import FitError, RecordingError, SpecError
 from stribeck.identify.scaling import model_for
 from stribeck.models.catalog import law_ids
-from stribeck.recording.options import ReadOptions
+from stribeck.recording.stated.options import ReadOptions
 from stribeck.scale.study.plan import DYNAMIC, REVIEW, STATIC, THERMAL, Job, group_of, make_plan
 from synthetic import joint, record
 

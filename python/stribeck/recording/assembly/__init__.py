@@ -1,0 +1,1 @@
+"""From the channels of one joint to a checked recording."""

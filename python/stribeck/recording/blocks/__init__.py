@@ -1,0 +1,1 @@
+"""Held-out blocks other than stretches and runs."""

@@ -1,0 +1,1 @@
+"""The channels of one joint: its samples, units, loads, drive and second encoder."""

@@ -1,0 +1,1 @@
+"""What follows from the motion of a recording: moves, derivatives, lags and excerpts."""

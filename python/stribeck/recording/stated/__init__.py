@@ -1,0 +1,1 @@
+"""What a user states about a file: options, the sidecar, and both together."""

@@ -1,0 +1,1 @@
+"""A file as a table: its columns, cells and formulas over them."""
