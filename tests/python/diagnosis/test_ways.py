@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from stribeck.diagnosis.diagnose import diagnose
+from stribeck.benchmark.cases import cases
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings
 from stribeck.diagnosis.residual.unexplained import Unexplained
@@ -106,3 +107,13 @@ def test_a_proxy_does_not_stay_where_the_loop_began_with_it(tmp_path: Path) -> N
     a = motion()[3]
     found = sb.improve("coulomb", record(tmp_path, joint(0.4 * np.sign(a))))
     assert found.steps == () and found.last.verdict == "unexplained"
+
+
+def test_an_effect_that_explains_nearly_as_much_begins_too(tmp_path: Path) -> None:
+    """Friction under load behind a load on a wrong scale: saturation alone stands in for both."""
+    name = "closed_loop-load-0.3x-load_scale-465145000"
+    case = next(c for c in cases(1, seed=465, realism=1) if c.name == name)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    found = sb.improve("coulomb", sb.read(tmp_path / "recording.parquet"))
+    assert {step.finding.effect for step in found.steps} == {"gain", "load"}
+    assert found.last.verdict == "none"

@@ -12,7 +12,7 @@ from dataclasses import replace
 from stribeck.diagnosis.loop.path import Dropped, ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.result import Diagnosis, Finding
-from stribeck.diagnosis.trials.evidence import difference
+from stribeck.diagnosis.trials.evidence import difference, held_out_square
 from stribeck.diagnosis.trials.flexible_refit import free_difference
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import finding_of
@@ -27,13 +27,16 @@ from stribeck.models.formula_law import effect_name
 FIRM = 0.9
 #: Other beginnings that are tried.
 OTHERS = 2
+#: Share of what the first effect explains that a rival explains, beside which it is in doubt.
+RIVAL = 0.75
 
 
 def other_beginnings(start: Diagnosis, path: ImprovementPath, seed: int) -> Iterator[Finding]:
     """What the loop may begin with instead, likeliest first; nothing where the first is firm.
 
-    Where structure remains at the end of `path`, also effects that lower the error, but may not be
-    claimed alone: beside others they may. Of one that contains a simpler effect, that.
+    Also effects that explain nearly as much as the first alone: beside others they may explain
+    more. Where structure remains at the end of `path`, also effects that lower the error, but may
+    not be claimed alone. Of one that contains a simpler effect, that.
     """
     doubtful = _is_doubtful(path)
     firm = not start.findings or start.findings[0].weight >= FIRM
@@ -42,10 +45,10 @@ def other_beginnings(start: Diagnosis, path: ImprovementPath, seed: int) -> Iter
     count = len(likely)
     tried = {found.effect for found in (*start.findings[:1], *likely)}
     for name in dict.fromkeys(simpler_effect(effect) or effect for effect in start.passed):
-        if not doubtful or count == OTHERS:
+        if count == OTHERS:
             return
         began = None if effect_name(name) in tried else _begun(start, name, seed)
-        if began is not None:
+        if began is not None and (doubtful or _is_rival(began, start)):
             yield began
             count += 1
 
@@ -54,6 +57,16 @@ def _is_doubtful(path: ImprovementPath) -> bool:
     """Whether structure remains, and what was found first is not firm."""
     remains = path.last.unexplained.is_structure or path.last.noise_floor.value is None
     return remains and (not path.steps or path.steps[0].finding.confidence < FIRM)
+
+
+def _is_rival(other: Finding, start: Diagnosis) -> bool:
+    """Whether an effect explains nearly as much alone as the first, of another kind, does."""
+    first = start.findings[0] if start.findings else None
+    if first is None or is_friction(first.effect):
+        return False
+    explained = held_out_square(start.fit, start.fit) - held_out_square(first.fit, start.fit)
+    by_other = held_out_square(start.fit, start.fit) - held_out_square(other.fit, start.fit)
+    return by_other >= RIVAL * explained
 
 
 def _begun(start: Diagnosis, effect: str, seed: int) -> Finding | None:
