@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
-from stribeck.diagnosis.diagnose import diagnose
 from stribeck.benchmark.cases import cases
+from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings
 from stribeck.diagnosis.residual.unexplained import Unexplained
@@ -109,6 +109,7 @@ def test_a_proxy_does_not_stay_where_the_loop_began_with_it(tmp_path: Path) -> N
     assert found.steps == () and found.last.verdict == "unexplained"
 
 
+@pytest.mark.slow
 def test_an_effect_that_explains_nearly_as_much_begins_too(tmp_path: Path) -> None:
     """Friction under load behind a load on a wrong scale: saturation alone stands in for both."""
     name = "closed_loop-load-0.3x-load_scale-465145000"
