@@ -32,11 +32,18 @@ def _where(before: Identified, after: Identified) -> str:
     top = max(abs(x) for x in m.box["velocity"])
     slope = m.value("direction_viscous")
     base = m.value("direction_coulomb") if "direction_coulomb" in m.names else 0.0
+    fast = base + slope * top
+    first = f"{number(2 * abs(base))} {m.load_unit} near rest"
+    if base * fast < 0.0:
+        first += f", larger {_way(base)},"
     return (
-        f"friction in the two directions differs by {number(2 * abs(base))} {m.load_unit} near "
-        f"rest and by {number(2 * abs(base + slope * top))} {m.load_unit} at {number(top)} "
-        f"{m.position_unit}/s, larger {'forward' if base + slope * top > 0 else 'backward'}"
+        f"friction in the two directions differs by {first} and by {number(2 * abs(fast))} "
+        f"{m.load_unit} at {number(top)} {m.position_unit}/s, larger {_way(fast)}"
     )
+
+
+def _way(difference: float) -> str:
+    return "forward" if difference > 0.0 else "backward"
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import stribeck as sb
 from made_paths import path_through
+from scipy.signal import lfilter
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.ties import settled
 from stribeck.diagnosis.result import Finding
@@ -99,3 +100,29 @@ def test_fewer_points_than_intervals_are_averaged_one_by_one(tmp_path: Path) -> 
     fitted = sb.fit("coulomb+gravity", recording, starts=1)
     assert fitted.rows.size < 40
     assert alike_in_form("gravity", fitted) == ()
+
+
+def test_a_stribeck_curve_and_a_late_torque_tie_with_a_lag_of_the_curve(tmp_path: Path) -> None:
+    """All torque is late by two samples."""
+    v = motion(6000)[2]
+    frame = joint(2.0 * np.exp(-np.abs(v) / 0.3) * np.sign(v), rows=6000)
+    late = frame.with_columns(torque=np.roll(frame["torque"].to_numpy(), 2))[2:]
+    base = sb.fit("coulomb", record(tmp_path, late), starts=1)
+    path = path_through(base, ("frictional_lag",))
+    plain = replace(path.steps[0].finding, weight=1.0, certainty=1.0, indistinguishable_from=())
+    found = settled(path.with_instead(plain), 0.01, seed=0).steps[0].finding
+    assert found.indistinguishable_from == ("delay",)
+    assert found.weight == pytest.approx(0.5, abs=0.01)
+
+
+def test_a_lag_of_the_curve_alone_is_no_late_torque(tmp_path: Path) -> None:
+    """A curve that follows the speed by 50 ms."""
+    v = motion(6000)[2]
+    curve = 2.0 * np.exp(-np.abs(v) / 0.3)
+    share = 0.01 / 0.05
+    lagging = lfilter([share], [1.0, share - 1.0], curve, zi=[(1.0 - share) * curve[0]])[0]
+    base = sb.fit("coulomb", record(tmp_path, joint(lagging * np.sign(v), rows=6000)), starts=1)
+    path = path_through(base, ("frictional_lag",))
+    plain = replace(path.steps[0].finding, weight=1.0, certainty=1.0, indistinguishable_from=())
+    found = settled(path.with_instead(plain), 0.01, seed=0).steps[0].finding
+    assert "delay" not in found.indistinguishable_from

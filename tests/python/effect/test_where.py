@@ -135,3 +135,15 @@ def test_friction_along_the_stroke_says_which_directions_pass(
         frame = frame.filter(~((pl.col("velocity") < 0.0) & (pl.col("position") > 0.9)))
     fitted = sb.fit("coulomb+position", sb.read(frame), starts=1)
     assert said in where("position", fitted, fitted)
+
+
+@pytest.mark.parametrize(
+    ("viscous", "said"),
+    [
+        (0.3, "by 0.4 N m near rest and by 1 N m at 1 rad/s, larger forward"),
+        (-0.3, "by 0.4 N m near rest, larger forward, and by 0.2 N m at 1 rad/s, larger backward"),
+    ],
+)
+def test_directions_whose_difference_changes_its_sign(viscous: float, said: str) -> None:
+    after = with_values("direction", direction_coulomb=0.2, direction_viscous=viscous)
+    assert said in where("direction", after, after)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from stribeck.base.errors import FitError
 from stribeck.diagnosis.diagnose import diagnose, with_visibility
 from stribeck.diagnosis.least_fall import LEAST_FALL
+from stribeck.diagnosis.loop.at_the_end import impossible_at_the_end
 from stribeck.diagnosis.loop.form import of_other_form
 from stribeck.diagnosis.loop.path import ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged, trials_of
@@ -62,7 +63,7 @@ class Search:
         # Imitations once: without them more remains, beside which another effect explains less.
         findings = [step.finding for step in path.steps]
         shorter = self._without(
-            path, {**self._other_forms(path), **dict.fromkeys(imitations(findings), REASON)}
+            path, {**self._doubtful(path), **dict.fromkeys(imitations(findings), REASON)}
         )
         while shorter is not None:
             shorter = self._needed(shorter)
@@ -70,7 +71,7 @@ class Search:
             path = yield from self._grown(self._asked(shorter))
             # What an imitation has hidden beside it may be two effects that show only together.
             path = self._beyond(path, trials_of(path.last))
-            shorter = self._without(path, self._other_forms(path))
+            shorter = self._without(path, self._doubtful(path))
         path = settled(path, self.least_fall, self.seed)
         last = path.last if path.last.findings else with_visibility(path.last)
         said = replace(last, demoted=(*path.demoted, *last.demoted))
@@ -219,10 +220,13 @@ class Search:
         path = yield from self._grown(self._asked(path))
         yield path
 
-    def _other_forms(self, path: ImprovementPath) -> dict[str, str]:
-        """The effects of a path that a free function of the motion explains better, and why."""
+    def _doubtful(self, path: ImprovementPath) -> dict[str, str]:
+        """The effects of a path that the last model shows to be something else, and why."""
         findings = [step.finding for step in path.steps]
-        return of_other_form(findings, path.current, path.last.unexplained, self.seed)
+        return {
+            **of_other_form(findings, path.current, path.last.unexplained, self.seed),
+            **impossible_at_the_end(findings, path.current),
+        }
 
     def _without(
         self, path: ImprovementPath, doubtful: Mapping[str, str]

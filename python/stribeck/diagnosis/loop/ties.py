@@ -16,7 +16,7 @@ from stribeck.base.pool import on_each
 from stribeck.diagnosis.loop.exchange import PROMISE
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.provisional import judged
-from stribeck.diagnosis.loop.superfluous import fit_without
+from stribeck.diagnosis.loop.superfluous import brought_by, fit_without
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible
 from stribeck.diagnosis.result import Finding
@@ -41,6 +41,8 @@ from stribeck.models.catalog import effect_ids
 #: Share of what an effect explains alone that it explains beside another one, from which the other
 #: is no tie: both are missing.
 APART = 0.8
+#: The effect by which all torque is late, and not that of a Stribeck curve alone.
+DELAY = "delay"
 
 
 def settled(path: ImprovementPath, least: float, seed: int) -> ImprovementPath:
@@ -86,6 +88,8 @@ def _settled(
         name: 1.0 if name in unknown else others.weight(name, 0.0 if name in ties else PROMISE)
         for name in possible
     }
+    if DELAY not in inside and (late := others.weight_of_delay()) > weights.get(DELAY, 0.0):
+        weights[DELAY] = late
     left = {name: weight for name, weight in weights.items() if weight >= tie_weight(TIE)}
     # These are the same torque, however their errors differ behind different filters.
     most = 1.0 / (1.0 + sum(SCALE in (name, finding.effect) for name in unknown))
@@ -159,6 +163,21 @@ class _Others:
         if is_friction(effect) or not is_friction(self.finding.effect):
             return weight
         return max(weight, self._weight_in_free_form(by))
+
+    def weight_of_delay(self) -> float:
+        """How well the simpler part of the one and a delay of all torque predict in its place.
+
+        0 where the one has no simpler part, as a frictional lag has its Stribeck curve.
+        """
+        simpler = [effect for effect in brought_by(self.finding) if effect != self.finding.effect]
+        fit = self.without
+        for effect in (*simpler, DELAY) if simpler else ():
+            found = None if fit is None else screened(fit, effect, seed=self.seed)
+            trial = None if fit is None or found is None else try_effect(fit, found)
+            fit = None if trial is None or trial.is_implausible else trial.fit
+        if not simpler or fit is None:
+            return 0.0
+        return tie_weight(difference(fit, self.current).statistic)
 
     def _weight_in_free_form(self, by: Trial) -> float:
         """The same of an effect with a free form, where those of both models have theirs."""

@@ -21,6 +21,7 @@ from stribeck.diagnosis.plausibility.negative import (
     negative_under_load,
 )
 from stribeck.diagnosis.plausibility.noise_of_load import noise_of_load
+from stribeck.diagnosis.plausibility.other_joints import other_joints
 from stribeck.diagnosis.plausibility.other_part import other_part_changes
 from stribeck.diagnosis.plausibility.same_curve import same_curve
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
@@ -51,7 +52,15 @@ IMPOSSIBLE: tuple[Rule, ...] = (
 #: Nor is one with which another effect of the model breaks one of these.
 OF_OTHERS: tuple[Rule, ...] = (too_large, unresolved, out_of_reach)
 #: One that breaks one of these is demoted.
-WEAK: tuple[Rule, ...] = (few_events, one_event, few_samples, shape_at_bound, uneven, leaves_more)
+WEAK: tuple[Rule, ...] = (
+    few_events,
+    one_event,
+    few_samples,
+    shape_at_bound,
+    uneven,
+    leaves_more,
+    other_joints,
+)
 
 #: The highest confidence of a demoted finding: as likely as not.
 DEMOTED = 0.5

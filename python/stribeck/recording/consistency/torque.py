@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.stats import pearsonr
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.recording.arrays import Floats
@@ -23,6 +24,8 @@ _UNEXPLAINED = 0.5
 _NEGLIGIBLE = 0.02
 #: Another column is the joint's if it leaves at most this share of what the given one leaves.
 _BETTER = 0.2
+#: Joints whose motions are correlated by this move together: the torque of each goes with both.
+_TOGETHER = 0.9
 
 
 def check_torque(view: View) -> Check | None:
@@ -161,13 +164,39 @@ def _columns(view: View) -> Iterator[tuple[str, Floats]]:
     prepared = view.prepared
     used = view.columns_of("torque")
     kinds = {parse_name(column).channel for column in used} - {None}
-    alike = [name for column in used for name in view.of_other_joints(column).values()]
-    named = [n for n in prepared.table.columns if parse_name(n).channel in kinds and n not in used]
+    of_others = {
+        name: joint for column in used for joint, name in view.of_other_joints(column).items()
+    }
+    alike = [name for name, joint in of_others.items() if not _moves_along(view, joint)]
+    apart = [*used, *of_others]
+    named = [n for n in prepared.table.columns if parse_name(n).channel in kinds and n not in apart]
     names = dict.fromkeys([*alike, *named])
     for name in names:
-        try:
-            values = column_numbers(prepared.source, prepared.table, prepared.row, name)[view.rows]
-        except RecordingError:
-            continue
-        if np.isfinite(values).all() and np.ptp(values) > 0.0:
+        values = _numbers(view, name)
+        if values is not None and np.isfinite(values).all() and np.ptp(values) > 0.0:
             yield name, values
+
+
+def _moves_along(view: View, joint: str) -> bool:
+    """Whether another joint of the file moves as this one does."""
+    for channel in ("velocity", "position"):
+        for column in view.columns_of(channel):
+            other = view.of_other_joints(column).get(joint)
+            mine = _numbers(view, column)
+            theirs = None if other is None else _numbers(view, other)
+            if mine is not None and theirs is not None:
+                own = np.column_stack([mine, theirs])
+                own = own[np.isfinite(own).all(axis=1)]
+                still = own.shape[0] < 2 or bool(np.any(np.ptp(own, axis=0) == 0.0))
+                return not still and abs(pearsonr(own[:, 0], own[:, 1]).statistic) >= _TOGETHER
+    return False
+
+
+def _numbers(view: View, column: str) -> Floats | None:
+    """The values of a column; None where it holds something else."""
+    prepared = view.prepared
+    try:
+        cells = column_numbers(prepared.source, prepared.table, prepared.row, column)
+    except RecordingError:
+        return None
+    return cells[view.rows]

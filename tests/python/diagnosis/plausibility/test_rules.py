@@ -19,6 +19,7 @@ from stribeck.diagnosis.plausibility.negative import (
     negative_inertia,
     negative_under_load,
 )
+from stribeck.diagnosis.plausibility.other_joints import other_joints
 from stribeck.diagnosis.plausibility.rules import IMPOSSIBLE, WEAK, impossible, weak
 from stribeck.diagnosis.plausibility.same_curve import same_curve
 from stribeck.diagnosis.plausibility.shape import few_samples, shape_at_bound
@@ -28,6 +29,7 @@ from stribeck.diagnosis.plausibility.uneven import uneven
 from stribeck.diagnosis.plausibility.unresolved import out_of_reach, unresolved
 from stribeck.diagnosis.plausibility.worsened import worsened
 from stribeck.identify.problem import Problem
+from stribeck.recording.check import Check
 from synthetic import Array, joint, motion, record
 
 #: Torque of a made offset, N m.
@@ -83,6 +85,21 @@ def test_a_stribeck_curve_beside_viscous_friction_of_the_same_form(stribeck_curv
     assert reason == "the motion cannot tell it from nonlinear_viscous, which the model has"
     alone = with_values(stribeck_curve, coulomb_friction=0.0, stribeck_height=4.5)
     assert same_curve(alone) is None
+
+
+def test_what_other_joints_do_looks_like_an_effect_of_the_position(tmp_path: Path) -> None:
+    """Unless the load torque is known: then the check of other joints is not made."""
+    _, q, _, _ = motion()
+    claim = made(tmp_path, 0.5 * q, "spring")
+    assert other_joints(claim) is None
+    check = Check("others", True, "joint 2 moves as well")
+    beside = replace(claim.after.recording, checks=(check,))
+    moved = replace(claim, after=replace(claim.after, recording=beside))
+    reason = other_joints(moved)
+    assert reason is not None and reason.startswith("other joints move as well")
+    assert weak(moved) is not None
+    # Friction that depends on the speed alone is not what they carry.
+    assert other_joints(replace(moved, effect="stribeck")) is None
 
 
 def test_a_torque_beyond_all_that_was_measured(offset: Claim) -> None:

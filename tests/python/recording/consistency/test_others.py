@@ -35,3 +35,26 @@ def test_columns_of_one_matrix_are_no_joints() -> None:
     names = ["time=x_1", "position=x_2", "velocity=x_3", "torque=x_4"]
     found = {check.check: check for check in sb.read(table, map=names).checks}
     assert "others" not in found and found["torque"].ok
+
+
+def test_the_torque_of_a_joint_that_moves_along_is_not_proposed() -> None:
+    """Its torque goes with this motion too, since both joints move as one."""
+    rng = np.random.default_rng(0)
+    t = np.arange(4000) / 100.0
+    q = np.sin(t) + 0.3 * np.sin(3.3 * t)
+    v = np.cos(t) + 0.99 * np.cos(3.3 * t)
+    torque = np.sign(v) + 0.2 * v
+    table = pl.DataFrame(
+        {"t": t, "q_1": q, "dq_1": v, "tau_1": torque}
+        | {"q_2": 0.9 * q, "dq_2": 0.9 * v, "tau_2": torque + 0.8 * rng.standard_normal(t.size)}
+    )
+    names = ["time=t", "position=q_2", "velocity=dq_2", "torque=tau_2"]
+
+    def read(**instead: pl.Expr) -> sb.Recording:
+        return sb.read(table.with_columns(**instead), map=names)
+
+    read().require_consistent()
+    # A joint that moves in another way has no such torque.
+    other = np.cos(2.7 * t)
+    with pytest.raises(sb.RecordingError, match="torque=tau_1"):
+        read(q_1=pl.Series(np.sin(2.7 * t) / 2.7), dq_1=pl.Series(other)).require_consistent()

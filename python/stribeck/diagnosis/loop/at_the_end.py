@@ -1,0 +1,29 @@
+"""Findings that the values of the last model make impossible.
+
+An effect is judged when it is added. Beside later effects its size may end at a bound, or it may
+act within what the recording resolves: then it imitates another cause.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.unresolved import unresolved
+from stribeck.diagnosis.result import Finding
+from stribeck.diagnosis.trials.evidence import evidence
+from stribeck.diagnosis.trials.trial import Trial
+from stribeck.fitting.result import Fit
+
+
+def impossible_at_the_end(findings: Sequence[Finding], current: Fit) -> dict[str, str]:
+    """The effects of the model `current` that it makes impossible, and why."""
+    reasons = ((finding.effect, _reason(finding, current)) for finding in findings)
+    return {effect: reason for effect, reason in reasons if reason is not None}
+
+
+def _reason(finding: Finding, current: Fit) -> str | None:
+    trial = Trial(finding.effect, current, evidence(finding.before, current))
+    if trial.is_implausible:
+        return trial.bound_reason
+    return unresolved(Claim(finding.effect, finding.before, current))
