@@ -1,7 +1,8 @@
 """Findings that the values of the last model make impossible.
 
 An effect is judged when it is added. Beside later effects its size may end at a bound, or it may
-act within what the recording resolves: then it imitates another cause.
+act within what the recording resolves: then it imitates another cause. A size of zero is none of
+these: an effect of several parts, such as one of the load, may need only the others.
 """
 
 from __future__ import annotations
@@ -24,6 +25,6 @@ def impossible_at_the_end(findings: Sequence[Finding], current: Fit) -> dict[str
 
 def _reason(finding: Finding, current: Fit) -> str | None:
     trial = Trial(finding.effect, current, evidence(finding.before, current))
-    if trial.is_implausible:
+    if trial.size is not None and trial.size.at_bound and trial.size.value != 0.0:
         return trial.bound_reason
     return unresolved(Claim(finding.effect, finding.before, current))

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from stribeck.base import linear
 from stribeck.diagnosis.carrying import fewest
-from stribeck.diagnosis.plausibility.claim import Claim
+from stribeck.diagnosis.plausibility.claim import Array, Claim
 from stribeck.effect.base import number
 from stribeck.effect.describe import is_drive_train, is_friction
 from stribeck.effect.registry import find
@@ -29,15 +30,13 @@ def leaves_more(claim: Claim) -> str | None:
     """
     if is_friction(claim.effect) or is_drive_train(claim.effect):
         return None
-    known = find(claim.effect)
-    if known is not None and known.flexible_shape(claim.after):
-        return None
     changed = claim.change**2
     acts = np.argsort(-changed, kind="stable")[: fewest(changed)]
     without, along = (
         claim.before.weighted(fit.held_out_residual[claim.rows])
         for fit in (claim.before, claim.after)
     )
+    along = _beyond_its_form(claim, along)
     usual = robust_scale(along)
     square_without, square_along = (float(np.sum(x[acts] ** 2)) for x in (without, along))
     noise = acts.size * usual**2
@@ -48,3 +47,13 @@ def leaves_more(claim: Claim) -> str | None:
         f"where it acts, the error remains {number(left, 2)} times as large as elsewhere: another "
         f"cause acts there"
     )
+
+
+def _beyond_its_form(claim: Claim, residual: Array) -> Array:
+    """What the effect leaves [m] if its torque may have another form than that of its formula."""
+    known = find(claim.effect)
+    columns = [] if known is None else known.flexible_shape(claim.after)
+    if not columns:
+        return residual
+    free = np.column_stack([claim.before.weighted(column) for column in columns])
+    return np.asarray(residual - free @ linear.least_norm(free.T @ free, free.T @ residual))

@@ -20,6 +20,7 @@ def other_joints(claim: Claim) -> str | None:
     row = effect_row(claim.effect)
     if row is None or row["group"] == "actuator" or not CHANNELS & set(row["channels"]):
         return None
-    if all(check.check != "others" for check in claim.after.recording.checks):
+    recording = claim.after.recording
+    if recording.load_torque is not None or all(c.check != "others" for c in recording.checks):
         return None
     return "other joints move as well, and what they carry loads this joint, which may look alike"

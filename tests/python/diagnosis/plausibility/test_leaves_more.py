@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.benchmark.cases import Case
 from stribeck.diagnosis.plausibility import leaves_more as rule
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.leaves_more import leaves_more
@@ -38,9 +39,11 @@ def test_shocks_after_reversals_are_no_delay(tmp_path: Path) -> None:
 
 
 def test_a_spring_may_have_another_form(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A stop within the stroke is no polynomial: what the spring leaves is near the stop."""
-    q = motion(6000)[1]
-    before = sb.fit("coulomb", record(tmp_path, joint(40.0 * np.maximum(q - 1.05, 0.0), rows=6000)))
+    """A hose that stiffens is no polynomial: what the spring leaves is of its free form."""
+    case = Case("one", "closed_loop", ("spring",), 465119000, 5.0)
+    case.make().frame.write_parquet(tmp_path / "recording.parquet")
+    recording = sb.read(tmp_path / "recording.parquet", joint_kind="prismatic")
+    before = sb.fit("coulomb", recording, starts=1)
     claim = Claim("spring", before, sb.add(before, "spring", starts=2), 0.01)
     assert leaves_more(claim) is None
     monkeypatch.setattr(rule, "find", lambda _: find("delay"))
