@@ -21,9 +21,15 @@ def scored_rows(recording: Recording) -> Bools:
     """Samples that models are judged by, bool [n]: those that move, unless they are in doubt.
 
     What a model predicts for a sample in doubt, whose direction or friction is unknown because a
-    channel is late, may be wrong by twice the dry friction however good the model is.
+    channel is late, may be wrong by twice the dry friction however good the model is. Where all
+    would be in doubt, all that move are scored.
     """
-    return _SCORED.of(recording, "", lambda: recording.moving & ~_in_doubt(recording))
+    return _SCORED.of(recording, "", lambda: _scored(recording))
+
+
+def _scored(recording: Recording) -> Bools:
+    known = recording.moving & ~_in_doubt(recording)
+    return known if known.any() else recording.moving
 
 
 def rows_left_out(recording: Recording) -> Bools:

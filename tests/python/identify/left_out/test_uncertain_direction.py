@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stribeck as sb
+from stribeck.identify.left_out import rows
 from stribeck.identify.left_out.uncertain_direction import late_velocity, uncertain_direction
 from synthetic import COULOMB, behind_a_filter, joint, record
 
@@ -29,7 +30,7 @@ def test_an_ordinary_velocity_is_not_late(tmp_path: Path, plain: sb.Recording) -
     assert late_velocity(record(tmp_path, behind_a_filter(joint(), 0.011), "quick")) is None
 
 
-def test_samples_before_a_late_reversal_are_scored_but_not_fitted_to(tmp_path: Path) -> None:
+def test_samples_before_a_late_reversal_are_neither_fitted_nor_scored(tmp_path: Path) -> None:
     recording = record(tmp_path, behind_a_filter(joint(), LAG), trust=True)
     marked = uncertain_direction(recording)
     truth = joint()["velocity"].to_numpy()
@@ -39,5 +40,15 @@ def test_samples_before_a_late_reversal_are_scored_but_not_fitted_to(tmp_path: P
     assert marked.mean() < 3 * wrong.mean()
     fit = sb.fit("coulomb", recording)
     assert not np.isin(np.flatnonzero(marked), fit.rows).any()
+    assert not (marked & fit.scored).any()
     assert any("lags the position by" in note for note in fit.notes)
     assert fit.estimates["coulomb_friction"].value == pytest.approx(COULOMB, rel=0.01)
+
+
+def test_where_all_samples_are_in_doubt_all_are_scored(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Otherwise there would be no error to state."""
+    recording = record(tmp_path, joint())
+    monkeypatch.setattr(rows, "uncertain_direction", lambda r: np.ones(r.rows, dtype=bool))
+    assert np.array_equal(rows.scored_rows(recording), recording.moving)
