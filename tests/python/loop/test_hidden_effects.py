@@ -19,7 +19,6 @@ import cases as hidden
 #: Cases in which the effect is named but the error does not reach the noise, and why.
 SHORT = {
     "temperature_dry-3-1501": "the curve over temperature bends twice, the fitted one once (1.051)",
-    "delay-3-2101": "the torque jumps between samples, the fitted one crosses on a line (1.77)",
     "drift+temperature_dry-4113": "the first tenth, where drift is fast, is extrapolated (1.36)",
     "presliding+load-4109": "the bristle is one, the contact has many (1.15)",
 }

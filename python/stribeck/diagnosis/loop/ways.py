@@ -80,11 +80,13 @@ def best_of(ways: Sequence[ImprovementPath], least: float, seed: int) -> Improve
     """The way whose last model predicts best, the first of those that predict alike.
 
     The effect with which another way than the first begins must pass all tests at its end. It is as
-    certain as the models of the others predict worse.
+    certain as the models of the others predict worse. Where the first effect is firm, a way that
+    holds it too is none: from there the first way has found nothing else.
     """
     best = ways[0]
+    firm = [step.finding.effect for step in best.steps[:1] if step.finding.weight >= FIRM]
     for way in ways[1:]:
-        if not way.steps or not _is_better(way, best):
+        if not way.steps or any(map(way.holding, firm)) or not _is_better(way, best):
             continue
         began = judged(way.steps[0].finding, way.current, least, seed)
         if began is not None:
