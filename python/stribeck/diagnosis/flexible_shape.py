@@ -10,12 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stribeck.effect.base import Identified
-from stribeck.effect.registry import of_catalog
+from stribeck.effect.registry import find
 
 Array = NDArray[np.float64]
 
 
 def flexible_columns(fit: Identified) -> Array:
     """Columns [m, k] that let the effects of `fit` take any smooth form, on its samples."""
-    columns = [c for effect in fit.model.effects for c in of_catalog(effect).flexible_shape(fit)]
+    columns = [c for effect in fit.model.effects for c in columns_of(effect, fit)]
     return np.column_stack(columns) if columns else np.empty((fit.rows.size, 0))
+
+
+def columns_of(effect: str, fit: Identified) -> list[Array]:
+    """Columns [m] that let one effect of `fit` take any smooth form; none for one by formula."""
+    known = find(effect)
+    return [] if known is None else known.flexible_shape(fit)

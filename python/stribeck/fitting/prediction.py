@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stribeck.base.errors import FitError
 from stribeck.identify.figures import rms
 from stribeck.identify.held_out import Refit, held_out_prediction
-from stribeck.identify.left_out.rows import scored_rows
+from stribeck.identify.left_out.rows import counted_rows, scored_rows
 from stribeck.identify.problem import Problem
 from stribeck.identify.search.effort import Effort
 from stribeck.models.parts import friction_parts
@@ -58,7 +58,7 @@ class Prediction:
         residual = recording.torque - held_out
         blocks = np.unique(recording.block[scored]).size
         has_held_out = blocks >= 2 and bool(np.all(np.isfinite(residual[scored])))
-        counted = scored if recording.counted is None else scored & recording.counted
+        counted = counted_rows(recording)
         rmse = rms((recording.torque - prediction)[scored])
         return cls(prediction, held_out, rmse, rms(residual[counted]) if has_held_out else None)
 

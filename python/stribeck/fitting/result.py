@@ -25,7 +25,7 @@ from stribeck.identify.errors.information import Information, criteria, informat
 from stribeck.identify.errors.matrix import ParameterMatrix
 from stribeck.identify.figures import torque_cutoff
 from stribeck.identify.instrumental.exogeneity import Exogeneity
-from stribeck.identify.left_out.rows import scored_rows, transients
+from stribeck.identify.left_out.rows import counted_rows, scored_rows, transients
 from stribeck.identify.search.ends import StartsReport
 from stribeck.identify.weights import root_weights, weighted, weighted_rms
 from stribeck.models.fitted import note_origin
@@ -196,9 +196,7 @@ class Fit(Plotted):
         """Weighted held-out RMSE; None without weights or held-out predictions."""
         if self.rmse_held_out is None:
             return None
-        counted = self.recording.counted
-        at = self.scored if counted is None else self.scored & counted
-        return weighted_rms(self.recording, self.held_out_residual, at)
+        return weighted_rms(self.recording, self.held_out_residual, counted_rows(self.recording))
 
     @property
     def loss_weight(self) -> Array | None:

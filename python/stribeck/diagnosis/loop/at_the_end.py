@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.unresolved import unresolved
 from stribeck.diagnosis.result import Finding
-from stribeck.diagnosis.trials.evidence import evidence
-from stribeck.diagnosis.trials.trial import Trial
+from stribeck.diagnosis.trials.trial import bound_reason, size_of
 from stribeck.fitting.result import Fit
 
 
@@ -24,7 +23,7 @@ def impossible_at_the_end(findings: Sequence[Finding], current: Fit) -> dict[str
 
 
 def _reason(finding: Finding, current: Fit) -> str | None:
-    trial = Trial(finding.effect, current, evidence(finding.before, current))
-    if trial.size is not None and trial.size.at_bound and trial.size.value != 0.0:
-        return trial.bound_reason
+    size = size_of(finding.effect, current)
+    if size is not None and size.at_bound and size.value != 0.0:
+        return bound_reason(size)
     return unresolved(Claim(finding.effect, finding.before, current))

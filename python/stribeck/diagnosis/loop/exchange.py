@@ -11,6 +11,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from stribeck.base.pool import on_each
+from stribeck.diagnosis.flexible_shape import columns_of
 from stribeck.diagnosis.loop.superfluous import brought_by, fit_without
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import impossible, weak
@@ -32,7 +33,6 @@ from stribeck.diagnosis.trials.trial import (
 )
 from stribeck.effect.describe import is_friction
 from stribeck.effect.load_parts import HOLDS
-from stribeck.effect.registry import find
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids, simpler_effect
 from stribeck.models.formula_law import effect_name
@@ -264,16 +264,11 @@ def _is_preferred(finding: Finding, by: Trial, current: Fit, worse: float, bette
 
 def _fits_in_another_form(finding: Finding, by: Trial, current: Fit) -> bool:
     """Whether a cause other than friction, in its free form, predicts better than one without."""
-    if is_friction(finding.effect) or not _has_free_form(finding.effect, current):
+    if is_friction(finding.effect) or not columns_of(finding.effect, current):
         return False
-    if _has_free_form(by.effect, by.fit):
+    if columns_of(by.effect, by.fit):
         return False
     return free_difference(by.fit, current).statistic > TIE
-
-
-def _has_free_form(effect: str, fit: Fit) -> bool:
-    known = find(effect)
-    return known is not None and bool(known.flexible_shape(fit))
 
 
 def _least_lead(by: Trial, current: Fit) -> float:

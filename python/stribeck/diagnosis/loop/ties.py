@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from stribeck.base.pool import on_each
+from stribeck.diagnosis.flexible_shape import columns_of
 from stribeck.diagnosis.loop.exchange import PROMISE
 from stribeck.diagnosis.loop.path import ImprovementPath, ImprovementStep
 from stribeck.diagnosis.loop.provisional import judged
@@ -34,7 +35,6 @@ from stribeck.diagnosis.trials.screening import screened
 from stribeck.diagnosis.trials.trial import SIGNIFICANCE, TIE, Trial, tie_weight, try_effect
 from stribeck.effect.describe import is_drive_train, is_friction
 from stribeck.effect.load_parts import SCALE
-from stribeck.effect.registry import of_catalog
 from stribeck.fitting.result import Fit
 from stribeck.models.catalog import effect_ids
 
@@ -181,7 +181,7 @@ class _Others:
 
     def _weight_in_free_form(self, by: Trial) -> float:
         """The same of an effect with a free form, where those of both models have theirs."""
-        free = FlexibleRefit.of(by.fit) if of_catalog(by.effect).flexible_shape(by.fit) else None
+        free = FlexibleRefit.of(by.fit) if columns_of(by.effect, by.fit) else None
         if free is None:
             return 0.0
         return tie_weight(Difference.of(free.held_out**2 - self.free_square).statistic)

@@ -60,7 +60,7 @@ def _is_doubtful(path: ImprovementPath) -> bool:
 
 
 def _is_rival(other: Finding, start: Diagnosis) -> bool:
-    """Whether an effect explains nearly as much alone as the first, of another kind, does."""
+    """Whether an effect explains nearly as much alone as the first, which is no friction."""
     first = start.findings[0] if start.findings else None
     if first is None or is_friction(first.effect):
         return False
@@ -116,13 +116,16 @@ def _is_better(way: ImprovementPath, than: ImprovementPath) -> bool:
     effects than another, no more of them friction, is therefore compared in free forms too: it is
     better where it predicts better in these, and worse only if it does not.
     """
-    of_free_forms = free_difference(than.current, way.current).statistic
     if predicts_better(way.current, than.current):
-        return not _is_smaller(than, way) or of_free_forms > TIE
-    if _is_smaller(way, than) and of_free_forms > TIE:
+        return not _is_smaller(than, way) or _predicts_better_in_free_forms(way, than)
+    if _is_smaller(way, than) and _predicts_better_in_free_forms(way, than):
         return True
     fewer = len(way.current.model.names) < len(than.current.model.names)
     return fewer and difference(way.current, than.current).statistic <= SIMPLEST
+
+
+def _predicts_better_in_free_forms(way: ImprovementPath, than: ImprovementPath) -> bool:
+    return free_difference(than.current, way.current).statistic > TIE
 
 
 def _is_smaller(way: ImprovementPath, than: ImprovementPath) -> bool:

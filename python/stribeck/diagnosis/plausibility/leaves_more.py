@@ -12,10 +12,10 @@ import numpy as np
 
 from stribeck.base import linear
 from stribeck.diagnosis.carrying import fewest
+from stribeck.diagnosis.flexible_shape import columns_of
 from stribeck.diagnosis.plausibility.claim import Array, Claim
 from stribeck.effect.base import number
 from stribeck.effect.describe import is_drive_train, is_friction
-from stribeck.effect.registry import find
 from stribeck.identify.stated.loss import robust_scale
 
 #: Share of the squared error that an effect must explain where it acts, and how many times as large
@@ -51,8 +51,7 @@ def leaves_more(claim: Claim) -> str | None:
 
 def _beyond_its_form(claim: Claim, residual: Array) -> Array:
     """What the effect leaves [m] if its torque may have another form than that of its formula."""
-    known = find(claim.effect)
-    columns = [] if known is None else known.flexible_shape(claim.after)
+    columns = columns_of(claim.effect, claim.after)
     if not columns:
         return residual
     free = np.column_stack([claim.before.weighted(column) for column in columns])

@@ -71,12 +71,7 @@ class Trial:
     @property
     def size(self) -> Estimate | None:
         """The size of the effect, its first parameter: a height, a slope, a stiffness, a delay."""
-        own = self.fit.model.formula(self.effect)
-        if own is None:
-            name = catalog()["effects"][self.effect]["parameters"][0]["name"]
-        else:
-            name = own.names[0]
-        return self.fit.estimates.get(name)
+        return size_of(self.effect, self.fit)
 
     @property
     def shows_in_band(self) -> bool:
@@ -110,11 +105,26 @@ class Trial:
     def bound_reason(self) -> str:
         """Why an effect whose size is at its bound is not claimed."""
         assert self.size is not None
-        unit = "" if self.size.unit == "1" else f" {self.size.unit}"
-        return (
-            f"its {self.size.name} would be at its bound {number(self.size.value)}{unit}: the "
-            f"effect may imitate another cause; if a value beyond is possible, {wider(self.size)}"
-        )
+        return bound_reason(self.size)
+
+
+def size_of(effect: str, fit: Fit) -> Estimate | None:
+    """The size of an effect in a fit: its first parameter."""
+    own = fit.model.formula(effect)
+    if own is None:
+        name = catalog()["effects"][effect]["parameters"][0]["name"]
+    else:
+        name = own.names[0]
+    return fit.estimates.get(name)
+
+
+def bound_reason(size: Estimate) -> str:
+    """Why an effect with a size at its bound is not claimed."""
+    unit = "" if size.unit == "1" else f" {size.unit}"
+    return (
+        f"its {size.name} would be at its bound {number(size.value)}{unit}: the effect may imitate "
+        f"another cause; if a value beyond is possible, {wider(size)}"
+    )
 
 
 #: The trials that followed screenings beside a fit.

@@ -32,12 +32,18 @@ def _scored(recording: Recording) -> Bools:
     return known if known.any() else recording.moving
 
 
+def counted_rows(recording: Recording) -> Bools:
+    """The scored samples that the held-out error counts, bool [n]: those of the marked blocks."""
+    scored = scored_rows(recording)
+    return scored if recording.counted is None else scored & recording.counted
+
+
 def rows_left_out(recording: Recording) -> Bools:
     """Moving samples that no model is fitted to, bool [n].
 
     They are transients, which are scored, or in doubt because a channel is late.
     """
-    return transient_rows(recording, _of_rest(recording)) | _in_doubt(recording)
+    return transient_rows(recording, _by_direction_or_rest(recording)) | _in_doubt(recording)
 
 
 def transients(recording: Recording, marked: Bools) -> list[tuple[float, float]]:
@@ -60,10 +66,10 @@ def left_out_notes(recording: Recording, marked: Bools) -> tuple[str, ...]:
 
 
 def _in_doubt(recording: Recording) -> Bools:
-    return _of_rest(recording) | friction_of_slow_motion(recording)
+    return _by_direction_or_rest(recording) | friction_of_slow_motion(recording)
 
 
-def _of_rest(recording: Recording) -> Bools:
+def _by_direction_or_rest(recording: Recording) -> Bools:
     return uncertain_direction(recording) | friction_of_rest(recording)
 
 
