@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,8 @@ Array = NDArray[np.float64]
 
 #: Coulomb friction in N m and viscous friction in N m s/rad of the joints made here.
 COULOMB, VISCOUS = 3.0, 1.2
+#: Inertia in kg m2 and weight in N m of `sticking`, and the steps that it takes for a sample.
+INERTIA, WEIGHT, STEPS = 0.6, 4.0, 20
 
 
 def ar1(rng: np.random.Generator, size: int, rho: float, rms: float) -> Array:
@@ -87,3 +90,29 @@ def joint_with_stribeck_curve(rows: int = 3000) -> pl.DataFrame:
     """`joint` with a Stribeck curve of 1.5 N m at 0.1 rad/s."""
     v = motion(rows)[2]
     return joint(1.5 * np.sign(v) * np.exp(-((np.abs(v) / 0.1) ** 2)), rows=rows)
+
+
+@cache
+def sticking(
+    seconds: float = 60.0, rate: float = 200.0
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Time, position, velocity, acceleration and torque of a joint that a torque of sines drives.
+
+    It has a weight. Where it stands, friction holds it up to its Coulomb level, and its
+    acceleration jumps where friction stops or releases it.
+    """
+    step = 1.0 / (rate * STEPS)
+    t = np.arange(round(seconds * rate) * STEPS) * step
+    torque = sum(
+        size * np.sin(2.0 * np.pi * frequency * t + phase)
+        for size, frequency, phase in ((6.0, 0.17, 0.0), (4.0, 0.43, 1.0), (2.0, 1.1, 0.4))
+    )
+    q, v, a = (np.zeros(t.size) for _ in range(3))
+    most = step / INERTIA * COULOMB
+    for k in range(1, t.size):
+        other = torque[k] - VISCOUS * v[k - 1] - WEIGHT * np.sin(q[k - 1])
+        freely = v[k - 1] + step / INERTIA * other
+        v[k] = np.sign(freely) * max(abs(freely) - most, 0.0)
+        a[k] = (v[k] - v[k - 1]) / step
+        q[k] = q[k - 1] + step * v[k]
+    return tuple(x[::STEPS] for x in (t, q, v, a, torque))

@@ -23,6 +23,7 @@ from stribeck.effect.resonance import NONE, resonances
 from stribeck.models.model import Model
 from stribeck.models.parameter import joint_unit
 from stribeck.recording.derive import Smoother
+from stribeck.recording.motion.derived_motion import cutoff_of
 from stribeck.recording.motion.spring_torque import Resonance
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import noise_level
@@ -147,20 +148,36 @@ def _smoothed(share: float) -> str:
 
 
 def _unresolved(after: Identified) -> str | None:
-    """Differences between samples smooth: taken twice, they lack dt^2/3 of the second derivative.
+    """Whether a load torque from samples, or behind a low-pass, looks the same.
 
-    A drive train that twists under the inertia of the motor has the other sign.
+    Differences between samples smooth: taken twice, they lack dt^2/3 of the second derivative. A
+    load torque whose acceleration is behind a low-pass lacks what a drive train adds below its
+    resonance, and the motion tells them apart only below its own cut-off. A drive train that twists
+    under the inertia of the motor has the other sign.
     """
-    share, period = after.model.value("elasticity"), after.recording.scales()["sample_period"]
-    if _resonance(after).period > FEWEST_RESOLVED * period:
+    r, share, resonance = after.recording, after.model.value("elasticity"), _resonance(after)
+    period = r.scales()["sample_period"]
+    resonates = resonance.period > 0.0
+    if not resonates and share >= 0.0:
         return None
-    if not -(period**2) <= share < 0.0:
+    hertz = 1.0 / (resonance.period if resonates else 2.0 * np.pi * np.sqrt(-share))
+    if resonance.period <= FEWEST_RESOLVED * period and -(period**2) <= share < 0.0:
+        return (
+            f"the drive train would oscillate at {_own_hertz(share)} Hz, and a load torque from "
+            f"differences between samples is off by as much"
+        )
+    highest = cutoff_of(r) if r.columns["acceleration"].derived else None
+    if highest is None or hertz < highest:
         return None
-    hertz = 1.0 / (2.0 * np.pi * np.sqrt(-share))
     return (
-        f"the drive train would oscillate at {number(float(hertz))} Hz, and a load torque from "
-        f"differences between samples is off by as much"
+        f"the drive train would oscillate at {number(float(hertz))} Hz, above the low-pass of the "
+        f"acceleration at {number(highest)} Hz: a load torque behind a low-pass looks the same"
     )
+
+
+def _own_hertz(share: float) -> str:
+    """The frequency of an oscillation that the second derivative alone shows."""
+    return number(float(1.0 / (2.0 * np.pi * np.sqrt(-share))))
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:

@@ -14,6 +14,7 @@ import polars as pl
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.base.shown import Plotted
+from stribeck.recording.acceleration_filter import AccelerationFilter
 from stribeck.recording.arrays import Bools, Floats, Ints, Numbers
 from stribeck.recording.check import Check
 from stribeck.recording.derive import curvature, slow_rate
@@ -76,6 +77,8 @@ class Recording(Plotted):
         degC.
     position_smooth, velocity_smooth, acceleration_smooth, load_torque_smooth
         The same channels after a zero-phase low-pass at `cutoff_hz`.
+    acceleration_filter
+        Of a derived acceleration; None: it was recorded.
     segment, run, run_names
         Segment (stretch between gaps) and run of each sample, and the names of the runs.
     dt
@@ -95,18 +98,13 @@ class Recording(Plotted):
         position also where none was measured.
     reference_load_torque
         Load torque of the given rigid-body terms along the reference; None: not known.
-    elapsed_before
-        Time before the first sample of an excerpt, s.
-    excerpt_of
-        The recording that this is an excerpt of.
-    weight
-        Weight of each sample's squared error in a fit; None: all weights are equal.
-    unweighted
-        The recording without the weights that a fit was given.
-    checks
-        Whether the channels agree with each other.
-    trusted
-        Whether contradictions between them are accepted.
+    elapsed_before, excerpt_of
+        Time before the first sample of an excerpt, s; the recording that it is an excerpt of.
+    weight, unweighted
+        Weight of each sample's squared error in a fit (None: all weights are equal); the recording
+        without the weights that a fit was given.
+    checks, trusted
+        Whether the channels agree with each other, and whether contradictions are accepted.
     torque_at
         Where the torque was measured: ``"motor"``, ``"command"`` or ``"link"``; None: not known.
     motor_position, motor_velocity
@@ -156,6 +154,7 @@ class Recording(Plotted):
     rows_dropped: int
     averaged: bool
     cutoff_hz: float | None
+    acceleration_filter: AccelerationFilter | None = None
     motor: dict[str, float] = field(default_factory=dict)
     external_torque: Floats | None = None
     drive: str | None = None

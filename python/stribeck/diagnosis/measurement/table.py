@@ -11,6 +11,7 @@ from stribeck.diagnosis.measurement.late_channels import LATE_CHANNELS
 from stribeck.diagnosis.measurement.late_thermometer import LATE_THERMOMETER
 from stribeck.diagnosis.measurement.load_scale import LOAD_SCALE
 from stribeck.diagnosis.measurement.noisy_load import NOISY_LOAD
+from stribeck.diagnosis.measurement.noisy_motion import NOISY_MOTION
 from stribeck.diagnosis.measurement.other_acceleration import OTHER_ACCELERATION
 from stribeck.diagnosis.measurement.rotor import ROTOR
 from stribeck.diagnosis.measurement.step_at_zero import STEP_AT_ZERO
@@ -24,6 +25,7 @@ CAUSES: tuple[MeasurementCause, ...] = (
     LOAD_SCALE,
     LATE_THERMOMETER,
     NOISY_LOAD,
+    NOISY_MOTION,
     OTHER_ACCELERATION,
     STEP_AT_ZERO,
     SUPPLY_SAG,

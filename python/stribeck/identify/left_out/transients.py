@@ -24,6 +24,7 @@ from stribeck.base import linear
 from stribeck.identify.figures import zero_phase
 from stribeck.identify.normal import NormalEquations
 from stribeck.recording.blocks.speeds_once import passes_speeds_once
+from stribeck.recording.motion.any_friction import AnyFriction
 from stribeck.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -45,32 +46,17 @@ STRETCHES = 3
 
 
 def flexible_columns(recording: Recording) -> list[Array]:
-    """Columns of a deliberately flexible friction model, arrays [n].
-
-    Smooth functions of speed in either direction, of position and temperature, and the rigid body.
-    """
-    v = recording.velocity
-    speed = recording.scales()["speed"] or 1.0
-    sign = np.sign(v)
-    x = np.abs(v) / speed
-    columns = [sign, v, sign * x**0.5, sign * x**2, sign * np.exp(-x / 0.05)]
-    columns += [np.abs(sign), x, np.ones_like(v)]
-    if recording.acceleration is not None:
-        columns.append(recording.acceleration)
-    if recording.position is not None:
-        q = recording.position
-        span = np.ptp(q) or 1.0
-        u = (q - q.min()) / span
-        if recording.joint_kind == "revolute":
-            columns += [np.cos(q), np.sin(q)]
-        columns += [sign * np.cos(k * np.pi * u) for k in range(1, 5)]
-    if recording.temperature is not None:
-        t = recording.temperature - recording.temperature.mean()
-        columns += [sign * t, v * t]
-    tl = recording.load_torque
-    if tl is not None:
-        columns += [sign * np.abs(tl), tl]
-    return columns
+    """Columns of a deliberately flexible friction model, arrays [n]; see `AnyFriction`."""
+    r = recording
+    depends = AnyFriction(
+        r.velocity,
+        r.scales()["speed"],
+        r.joint_kind == "revolute",
+        r.position,
+        r.temperature,
+        r.load_torque,
+    )
+    return depends.columns(r.acceleration)
 
 
 def simple_columns(recording: Recording) -> list[Array]:

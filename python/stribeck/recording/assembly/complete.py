@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stribeck.base.errors import option
+from stribeck.recording.acceleration_filter import AccelerationFilter
 from stribeck.recording.arrays import Floats, Ints, bools, floats, floats_or_none, ints
 from stribeck.recording.joint.channels import Channels, Layout
 from stribeck.recording.joint.loads import Loads
@@ -31,6 +32,8 @@ class Motion:
         Of the low-pass that made the smooth arrays; None: they are the measured ones.
     noise_left
         Standard deviation of the noise that a low-pass leaves in the velocity; None without one.
+    acceleration_filter
+        Behind which the acceleration was derived; None: it was recorded.
     """
 
     position: Floats | None
@@ -42,6 +45,7 @@ class Motion:
     velocity_noise: float
     cutoff_hz: float | None
     noise_left: float | None = None
+    acceleration_filter: AccelerationFilter | None = None
 
 
 @dataclass(frozen=True)
@@ -107,6 +111,7 @@ def complete(
         rows_dropped=layout.rows_dropped,
         averaged=averaged,
         cutoff_hz=motion.cutoff_hz,
+        acceleration_filter=motion.acceleration_filter,
         weight=floats_or_none(data.values.get("weight")),
         motor=dict(data.prepared.settings.mechanics.motor),
     )

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stribeck.recording.acceleration_filter import AccelerationFilter, filter_text
 from stribeck.recording.arrays import Floats, Ints
+from stribeck.recording.assembly.accelerated import Derivable, accelerated
 from stribeck.recording.assembly.complete import Clock, Motion, complete
 from stribeck.recording.derive import Smoother, choose_cutoff
 from stribeck.recording.joint.channels import Channels, Layout
@@ -17,8 +19,6 @@ from stribeck.recording.mend.load_of_motion import differing, slow_motion
 from stribeck.recording.mend.load_of_motion import note as load_note
 from stribeck.recording.mend.load_of_motion import torque_follows as follows_motion
 from stribeck.recording.motion.derived_motion import (
-    acceleration_cutoff,
-    filter_text,
     filtered_noise,
     slope,
 )
@@ -76,7 +76,7 @@ def _motion(
         cutoff = choose_cutoff(time, velocity, segment, 1)
         smoother = Smoother(time, segment, cutoff)
         velocity_smooth = smoother.smooth(velocity)
-        origin, source, derivative = "velocity", velocity, 1
+        source, derivative = velocity, 1
         left = None
     else:
         assert position is not None
@@ -90,19 +90,19 @@ def _motion(
             sigma = max(sigma, left or 0.0)
         velocity_smooth = velocity
         smoother = Smoother(time, segment, cutoff)
-        origin, source, derivative = "position", position, 2
+        source, derivative = position, 2
         unit = f"{layout.position_unit}/s"
         data.columns["velocity"] = Column.of("velocity", "position", unit, True, velocity)
-        data.notes.append(_derived_note("velocity", "position", cutoff))
+        data.notes.append(f"velocity derived from position, {filter_text(cutoff)}")
     derived: Smoother | None = None
+    filtered: AccelerationFilter | None = None
     if acceleration is None:
-        highest = acceleration_cutoff(time, velocity, segment, typical, cutoff)
-        derived = Smoother(time, segment, highest)
-        acceleration = derived.smooth(source, derivative)
+        known = Derivable(
+            source, derivative, velocity, velocity_smooth, cutoff, float(sigma or 0.0)
+        )
+        filtered, acceleration = accelerated(data, layout, segment, typical, known)
+        derived = Smoother(time, segment, filtered.cutoff)
         acceleration_smooth = acceleration
-        unit = f"{layout.position_unit}/s2"
-        data.columns["acceleration"] = Column.of("acceleration", origin, unit, True, acceleration)
-        data.notes.append(_derived_note("acceleration", origin, highest))
     else:
         acceleration_smooth = smoother.smooth(acceleration)
     position_smooth = None if position is None else smoother.smooth(position)
@@ -116,6 +116,7 @@ def _motion(
         float(sigma or 0.0),
         cutoff,
         left,
+        filtered,
     )
     return motion, _Smoothers(smoother, derived)
 
@@ -186,7 +187,3 @@ def _of_motion(
     source = f"{given.source} and the motion"
     data.columns["load_torque"] = Column.of("load_torque", source, given.unit, True, mended)
     return mended
-
-
-def _derived_note(name: str, source: str, cutoff: float | None) -> str:
-    return f"{name} derived from {source}, {filter_text(cutoff)}"

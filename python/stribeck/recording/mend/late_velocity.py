@@ -12,14 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stribeck.base import linear
 from stribeck.base.errors import option
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.consistency.follow import Track, follows
 from stribeck.recording.consistency.remedy import PHASE
 from stribeck.recording.joint.channels import Channels
+from stribeck.recording.mend.torque_left import REACH, left_of, shifted, torque_of
 from stribeck.recording.motion.velocity_lag import velocity_lag
-from stribeck.recording.rows import neighbour
 
 __all__ = ["Moved", "late", "note", "torque_follows"]
 
@@ -30,10 +29,6 @@ _LEAST = 0.5
 _RATIO = 0.05
 #: Share of the usual speed below which a joint is at rest, and the quantile that is usual.
 _AT_REST, _USUAL = 3e-3, 0.95
-#: Largest shift of the torque in samples, as of the effect `delay`.
-REACH = 6
-#: Channels that a torque may be read from.
-_TORQUES = ("friction_torque", "torque", "current")
 
 
 @dataclass(frozen=True)
@@ -83,7 +78,7 @@ def torque_follows(
     recorded velocity, and than a small share of the usual speed by the derived one. A filter decays
     long after a stop, and what holds a joint at rest has the direction of the motion before it.
     """
-    torque = next((data.values[name] for name in _TORQUES if name in data.values), None)
+    torque = torque_of(data)
     speeds = np.abs(recorded.velocity)
     slowest = _AT_REST * float(np.quantile(speeds, _USUAL))
     moving = (speeds > threshold) & (np.abs(derived.velocity) > slowest)
@@ -92,26 +87,18 @@ def torque_follows(
     by_derived, by_recorded = (
         _left(data, torque, segment, motion, moving) for motion in (derived, recorded)
     )
-    return by_derived[REACH] < by_recorded[REACH] or min(by_derived) < min(by_recorded)
+    in_time = bool(by_derived[REACH] < by_recorded[REACH])
+    return in_time or bool(by_derived.min() < by_recorded.min())
 
 
-def _left(
-    data: Channels, torque: Floats, segment: Ints, motion: Moved, moving: Bools
-) -> list[float]:
+def _left(data: Channels, torque: Floats, segment: Ints, motion: Moved, moving: Bools) -> Floats:
     """Sums of squares that the ordinary model of a motion leaves of the torque, at each shift."""
     q, v = data.values["position"], motion.velocity
     columns = [np.sign(v), v, motion.acceleration, np.sin(q), np.cos(q), np.ones_like(v)]
     if "load_torque" in data.values:
         columns.append(data.values["load_torque"])
-    matrix = np.column_stack(columns)[moving]
-    matrix = matrix / np.maximum(np.linalg.norm(matrix, axis=0), np.finfo(float).tiny)
-    own = matrix.T @ matrix
-    left = []
-    for shift in range(-REACH, REACH + 1):
-        shifted = neighbour(torque, segment, shift)[moving]
-        right = matrix.T @ shifted
-        left.append(float(shifted @ shifted - right @ linear.least_norm(own, right)))
-    return left
+    rows = np.flatnonzero(moving)
+    return left_of(shifted(torque, segment, rows), columns, rows)
 
 
 def note(lag: float, period: float) -> str:

@@ -11,7 +11,7 @@ from stribeck.recording.derive import HIGHEST, Smoother, choose_cutoff, motion_b
 if TYPE_CHECKING:
     from stribeck.recording.recording import Recording
 
-__all__ = ["acceleration_cutoff", "cutoff_of", "filter_text", "filtered_noise", "slope"]
+__all__ = ["acceleration_cutoff", "cutoff_of", "filtered_noise", "slope"]
 
 #: The cut-off of a derived acceleration is at most this many times the band of the motion.
 _BANDS = 20.0
@@ -75,12 +75,7 @@ def acceleration_cutoff(
 def cutoff_of(recording: Recording) -> float | None:
     """The cut-off [Hz] for an acceleration that is derived from a recording; None: no filter."""
     r = recording
+    if r.acceleration_filter is not None:
+        return r.acceleration_filter.cutoff
     period = r.scales()["sample_period"]
     return acceleration_cutoff(r.time, r.velocity, r.segment, period, r.cutoff_hz)
-
-
-def filter_text(cutoff: float | None) -> str:
-    """How a filter is stated in a note."""
-    if cutoff is None:
-        return "no filter: the data show no noise above the motion"
-    return f"zero-phase low-pass at {cutoff:.3g} Hz chosen from the data"

@@ -9,6 +9,7 @@ import numpy as np
 import polars as pl
 
 from stribeck.base.errors import RecordingError, option
+from stribeck.recording.acceleration_filter import filter_text
 from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.derive import Smoother, choose_cutoff
 from stribeck.recording.joint.channels import Channels
@@ -17,7 +18,7 @@ from stribeck.recording.joint.units import settle_units
 from stribeck.recording.mend.rows import drop_bad_rows
 from stribeck.recording.mend.stamps import drop_repeated_stamps
 from stribeck.recording.mend.wraps import unwrap
-from stribeck.recording.motion.derived_motion import acceleration_cutoff, filter_text, slope
+from stribeck.recording.motion.derived_motion import acceleration_cutoff, slope
 from stribeck.recording.naming.columns import choose_columns
 from stribeck.recording.naming.names import CHANNELS, parse_name
 from stribeck.recording.rows import segment_rows

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stribeck.recording.acceleration_filter import AccelerationFilter
 from stribeck.recording.derive import Smoother
 from stribeck.recording.joint.channels import Channels
 
@@ -38,15 +39,17 @@ class MotionChannels:
         return cls(position, position, velocity, velocity, acceleration, acceleration)
 
     @classmethod
-    def filtered(cls, data: Channels, smoother: Smoother, band: float | None) -> MotionChannels:
+    def filtered(
+        cls, data: Channels, smoother: Smoother, accelerated: AccelerationFilter
+    ) -> MotionChannels:
         """Return the recorded or derived channels, and their smooth versions.
 
         Parameters
         ----------
         smoother
             With the cut-off found on the sample.
-        band
-            Cut-off of a derived acceleration, Hz.
+        accelerated
+            The filter of a derived acceleration.
         """
         values = data.values
         position = values.get("position")
@@ -60,7 +63,9 @@ class MotionChannels:
             acceleration = values["acceleration"]
             acceleration_smooth = smoother.smooth(acceleration)
         else:
-            acceleration = replace(smoother, cutoff=band).smooth(source, derivative)
+            acceleration = accelerated.derived(
+                smoother.time, smoother.segment, source, derivative, velocity_smooth
+            )
             acceleration_smooth = acceleration
         return cls(
             position=position,

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from stribeck.base.errors import RecordingError, option
 from stribeck.models.model import Model
+from stribeck.recording.acceleration_filter import AccelerationFilter
 from stribeck.recording.derive import Smoother
 from stribeck.recording.joint.channels import Channels, wanted_channels
 from stribeck.recording.joint.drive import with_drive
 from stribeck.recording.joint.loads import measured_torque, rigid_body_load
 from stribeck.recording.joint.units import settle_units
-from stribeck.recording.motion.derived_motion import cutoff_of
 from stribeck.recording.recording import Recording
 from stribeck.recording.rows import predictable, segment_rows
 from stribeck.recording.tables.cells import labels
@@ -131,7 +131,7 @@ class Windows:
         if self.least is not None:
             self.margin = self.margin.at_least(self.least)
         self._smoothed = smoothed(self.model, self.sample.recording)
-        self._band = cutoff_of(self.sample.recording) if self._smoothed else None
+        self._accelerated = self.sample.recording.acceleration_filter or AccelerationFilter(None)
         self._columns = self._read()
 
     def _read(self) -> list[str] | None:
@@ -220,7 +220,7 @@ class Windows:
             segment, dt, _ = segment_rows(time, run, row)
         if self._smoothed:
             motion = MotionChannels.filtered(
-                data, Smoother(time, segment, sample.cutoff_hz), self._band
+                data, Smoother(time, segment, sample.cutoff_hz), self._accelerated
             )
         else:
             motion = MotionChannels.recorded(data)

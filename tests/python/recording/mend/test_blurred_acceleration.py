@@ -1,0 +1,71 @@
+"""A joint that dry friction stops and releases: its acceleration jumps, and the torque shows it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import polars as pl
+import pytest
+import stribeck as sb
+from synthetic import joint, record, sticking
+
+#: Noise of the torque in N m.
+NOISE = 0.08
+
+
+def measured(velocity_noise: float = 0.01) -> pl.DataFrame:
+    """A recording of it without its acceleration."""
+    t, q, v, _, torque = sticking()
+    rng = np.random.default_rng(2)
+    return pl.DataFrame(
+        {
+            "time": t,
+            "position": q,
+            "velocity": v + velocity_noise * rng.standard_normal(t.size),
+            "torque": torque + NOISE * rng.standard_normal(t.size),
+        }
+    )
+
+
+@pytest.fixture(scope="module")
+def stopping(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
+    return record(tmp_path_factory.mktemp("stopping"), measured())
+
+
+def test_each_motion_is_filtered_by_itself(stopping: sb.Recording) -> None:
+    chosen = stopping.acceleration_filter
+    assert chosen is not None and chosen.at_ends is not None
+    note = next(n for n in stopping.notes if "acceleration derived" in n)
+    assert "over each motion by itself" in note
+
+
+def test_the_acceleration_is_the_true_one(stopping: sb.Recording) -> None:
+    """Also beside the instants at which friction stops and releases the joint."""
+    truth, moving = sticking()[3], stopping.moving
+    chosen = stopping.acceleration_filter
+    assert chosen is not None
+    whole = type(chosen)(chosen.at_ends)
+    usual = whole.derived(
+        stopping.time, stopping.segment, stopping.velocity, 1, stopping.velocity_smooth
+    )
+    wrong, usually = (
+        float(np.sqrt(np.mean((a - truth)[moving] ** 2))) for a in (stopping.acceleration, usual)
+    )
+    assert wrong < 0.7 * usually
+
+
+def test_nothing_is_missing(stopping: sb.Recording) -> None:
+    """A delay, which the blurred acceleration imitates, is not named."""
+    found = sb.improve("coulomb", stopping)
+    assert [step.finding.effect for step in found.steps] == []
+
+
+def test_a_motion_that_never_stops_is_filtered_as_a_whole(tmp_path: Path) -> None:
+    frame = joint(rows=6000, rate=200.0, velocity_noise=2e-3).drop("acceleration")
+    chosen = record(tmp_path, frame).acceleration_filter
+    assert chosen is not None and chosen.cutoff is not None and chosen.at_ends is None
+
+
+def test_a_recorded_acceleration_is_not_derived(tmp_path: Path) -> None:
+    assert record(tmp_path, joint()).acceleration_filter is None
