@@ -19,6 +19,4 @@ def _columns(fit: Fit) -> list[Array]:
     return [(before + after) / 2 - fit.prediction]
 
 
-NOISY_MOTION = MeasurementCause(
-    "noise of the motion", _columns, rising=1, imitates=("delay", "elasticity", "backlash")
-)
+NOISY_MOTION = MeasurementCause("noise of the motion", _columns, rising=1, imitates=("delay",))
