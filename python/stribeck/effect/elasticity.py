@@ -19,7 +19,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.hardening import LARGE, detailed_resonance
-from stribeck.effect.resonance import NONE, resonances
+from stribeck.effect.resonance import DAMPINGS, NONE, resonances
 from stribeck.models.model import Model
 from stribeck.models.parameter import joint_unit
 from stribeck.recording.derive import Smoother
@@ -150,34 +150,41 @@ def _smoothed(share: float) -> str:
 def _unresolved(after: Identified) -> str | None:
     """Whether a load torque from samples, or behind a low-pass, looks the same.
 
-    Differences between samples smooth: taken twice, they lack dt^2/3 of the second derivative. A
-    load torque whose acceleration is behind a low-pass lacks what a drive train adds below its
-    resonance, and the motion tells them apart only below its own cut-off. A drive train that twists
-    under the inertia of the motor has the other sign.
+    A drive train that twists under the inertia of the motor has the other sign.
     """
-    r, share, resonance = after.recording, after.model.value("elasticity"), _resonance(after)
-    period = r.scales()["sample_period"]
-    resonates = resonance.period > 0.0
-    if not resonates and share >= 0.0:
+    share, resonance = after.model.value("elasticity"), _resonance(after)
+    said = _from_samples(after, share, resonance)
+    if said is None and resonance.damping >= max(DAMPINGS) and resonance.period > 0.0:
+        return _behind_a_low_pass(after.recording, 1.0 / resonance.period)
+    return said
+
+
+def _from_samples(after: Identified, share: float, resonance: Resonance) -> str | None:
+    """Differences between samples, taken twice, lack dt^2/3 of the second derivative."""
+    period = after.recording.scales()["sample_period"]
+    if resonance.period > FEWEST_RESOLVED * period or not -(period**2) <= share < 0.0:
         return None
-    hertz = 1.0 / (resonance.period if resonates else 2.0 * np.pi * np.sqrt(-share))
-    if resonance.period <= FEWEST_RESOLVED * period and -(period**2) <= share < 0.0:
-        return (
-            f"the drive train would oscillate at {_own_hertz(share)} Hz, and a load torque from "
-            f"differences between samples is off by as much"
-        )
-    highest = cutoff_of(r) if r.columns["acceleration"].derived else None
-    if highest is None or hertz < highest:
-        return None
+    hertz = 1.0 / (2.0 * np.pi * np.sqrt(-share))
     return (
-        f"the drive train would oscillate at {number(float(hertz))} Hz, above the low-pass of the "
-        f"acceleration at {number(highest)} Hz: a load torque behind a low-pass looks the same"
+        f"the drive train would oscillate at {number(float(hertz))} Hz, and a load torque from "
+        f"differences between samples is off by as much"
     )
 
 
-def _own_hertz(share: float) -> str:
-    """The frequency of an oscillation that the second derivative alone shows."""
-    return number(float(1.0 / (2.0 * np.pi * np.sqrt(-share))))
+def _behind_a_low_pass(recording: Recording, hertz: float) -> str | None:
+    """A load torque behind a low-pass lacks what a drive train adds that hardly rings.
+
+    The motion tells them apart below the low-pass of its own acceleration.
+    """
+    derived = recording.columns["acceleration"].derived
+    highest = cutoff_of(recording) if derived else None
+    if highest is None or hertz < highest:
+        return None
+    return (
+        f"the drive train would oscillate at {number(hertz)} Hz without ringing, above the "
+        f"low-pass of the acceleration at {number(highest)} Hz: a load torque behind a low-pass "
+        f"looks the same"
+    )
 
 
 def _flexible_shape(fit: Identified) -> list[Array]:

@@ -10,10 +10,56 @@ from stribeck.recording.arrays import Floats, Ints
 from stribeck.recording.derive import Smoother
 from stribeck.recording.rows import segment_slices
 
-__all__ = ["AccelerationFilter", "filter_text"]
+__all__ = ["AccelerationFilter", "Derivable", "Motions", "filter_text"]
 
 #: Periods of the cut-off that a motion must last to be filtered by itself.
 _PERIODS = 2.0
+
+
+@dataclass(frozen=True)
+class Derivable:
+    """What an acceleration is derived from, arrays [n].
+
+    Attributes
+    ----------
+    source, derivative
+        The position, 2, or the velocity, 1.
+    smooth
+        The velocity behind a low-pass.
+    """
+
+    time: Floats
+    segment: Ints
+    source: Floats
+    derivative: int
+    smooth: Floats
+
+    def motions(self, still: float) -> Motions:
+        """The stretches between reversals and rests, at which it is slower than `still`."""
+        direction = np.where(np.abs(self.smooth) > still, np.sign(self.smooth), 0.0)
+        ends = np.diff(direction, prepend=direction[:1]) != 0.0
+        return Motions(self.time, self.segment + np.cumsum(ends))
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Stretches between reversals and rests: the number of that of each sample, int array [n]."""
+
+    time: Floats
+    number: Ints
+
+    def parts(self) -> list[slice]:
+        """One slice for each motion, in order."""
+        return segment_slices(self.number)
+
+    def to_end(self) -> Floats:
+        """Time from each sample to the nearer end of its motion, s, [n]."""
+        parts = self.parts()
+        first, last = (
+            np.repeat([self.time[p][at] for p in parts], [p.stop - p.start for p in parts])
+            for at in (0, -1)
+        )
+        return np.minimum(self.time - first, last - self.time)
 
 
 @dataclass(frozen=True)
@@ -37,28 +83,16 @@ class AccelerationFilter:
     at_ends: float | None = None
     still: float = 0.0
 
-    def derived(
-        self, time: Floats, segment: Ints, value: Floats, derivative: int, smooth: Floats
-    ) -> Floats:
-        """The acceleration [n].
-
-        Parameters
-        ----------
-        value, derivative
-            What it is derived from, and how often: position 2, velocity 1.
-        smooth
-            The velocity behind a low-pass.
-        """
+    def derived(self, known: Derivable) -> Floats:
+        """The acceleration [n]."""
         if self.at_ends is None or self.cutoff is None:
-            return Smoother(time, segment, self.cutoff).smooth(value, derivative)
-        direction = np.where(np.abs(smooth) > self.still, np.sign(smooth), 0.0)
-        ends = np.diff(direction, prepend=direction[:1]) != 0.0
-        motion = segment + np.cumsum(ends)
+            whole = Smoother(known.time, known.segment, self.cutoff)
+            return whole.smooth(known.source, known.derivative)
+        motions = known.motions(self.still)
         inside, beside = (
-            _by_motion(Smoother(time, segment, cutoff), motion, value, derivative)
-            for cutoff in (self.cutoff, self.at_ends)
+            _by_motion(known, motions, cutoff) for cutoff in (self.cutoff, self.at_ends)
         )
-        weight = np.minimum(_to_end(time, motion) * self.cutoff, 1.0)
+        weight = np.minimum(motions.to_end() * self.cutoff, 1.0)
         return weight * inside + (1.0 - weight) * beside
 
     def text(self) -> str:
@@ -69,28 +103,15 @@ class AccelerationFilter:
         return f"{filter_text(self.cutoff)}, over each motion by itself{beside}"
 
 
-def _by_motion(whole: Smoother, motion: Ints, value: Floats, derivative: int) -> Floats:
-    """A derivative [n] over each motion by itself; those that are short are filtered as a whole."""
-    assert whole.cutoff is not None
-    out = whole.smooth(value, derivative)
-    for part in segment_slices(motion):
-        time = whole.time[part]
-        if (time[-1] - time[0]) * whole.cutoff >= _PERIODS:
-            alone = Smoother(time, motion[part], whole.cutoff)
-            out[part] = alone.smooth(value[part], derivative)
+def _by_motion(known: Derivable, motions: Motions, cutoff: float) -> Floats:
+    """The acceleration [n] over each motion by itself; short ones are filtered with the others."""
+    out = Smoother(known.time, known.segment, cutoff).smooth(known.source, known.derivative)
+    for part in motions.parts():
+        time = known.time[part]
+        if (time[-1] - time[0]) * cutoff >= _PERIODS:
+            alone = Smoother(time, motions.number[part], cutoff)
+            out[part] = alone.smooth(known.source[part], known.derivative)
     return out
-
-
-def _to_end(time: Floats, motion: Ints) -> Floats:
-    """Time from each sample to the nearer end of its motion, s, [n]."""
-    slices = segment_slices(motion)
-    first, last = (_per_sample(motion, [float(time[s][at]) for s in slices]) for at in (0, -1))
-    return np.minimum(time - first, last - time)
-
-
-def _per_sample(motion: Ints, values: list[float]) -> Floats:
-    """The value of its motion for each sample, [n]."""
-    return np.repeat(np.array(values), [s.stop - s.start for s in segment_slices(motion)])
 
 
 def filter_text(cutoff: float | None) -> str:

@@ -9,13 +9,14 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
-from drive_trains import NOISE, TwoInertias, late_stribeck, reference
+from drive_trains import NOISE, RATE, TwoInertias, late_stribeck, reference
 from stribeck.base.errors import FitError
 from stribeck.benchmark.distortion import distorted
 from stribeck.benchmark.generators import GENERATORS
 from stribeck.effect import hardening
 from stribeck.effect.describe import where
 from stribeck.effect.resonance import best_resonance
+from stribeck.recording.motion.derived_motion import acceleration_cutoff
 from stribeck.recording.motion.spring_torque import Resonance
 from stribeck.report.finding_view import finding_view
 from synthetic import joint, motion, record
@@ -87,6 +88,13 @@ def test_a_load_that_oscillates_on_its_spring_is_elasticity_with_a_resonance(
     plain = sb.fit("coulomb", found[first].recording)
     assert found[first].rmse_held_out < 0.4 * plain.rmse_held_out
     assert "torque in the drive train's spring" in finding_view(first, plain, found[first]).x_label
+
+
+def test_a_lower_cutoff_removes_noise_and_no_motion(tmp_path: Path) -> None:
+    """However closely the torque follows the slow part of an acceleration."""
+    r = record(tmp_path, TwoInertias().recorded("motor", seen=True)[400:])
+    usual = acceleration_cutoff(r.time, r.velocity, r.segment, 1.0 / RATE, r.cutoff_hz)
+    assert r.acceleration_filter is not None and r.acceleration_filter.cutoff == usual
 
 
 @pytest.mark.slow

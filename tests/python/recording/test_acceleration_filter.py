@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from stribeck.recording.acceleration_filter import AccelerationFilter, filter_text
+from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable, filter_text
 
 #: A speed that rises at 2 per second, rests, and falls at 3 per second, 200 samples a second.
 TIME = np.arange(1200) / 200.0
@@ -14,7 +14,7 @@ SEGMENT = np.zeros(TIME.size, dtype=np.int64)
 
 
 def derived(chosen: AccelerationFilter) -> np.ndarray:
-    return chosen.derived(TIME, SEGMENT, SPEED, 1, SPEED)
+    return chosen.derived(Derivable(TIME, SEGMENT, SPEED, 1, SPEED))
 
 
 @pytest.mark.parametrize("at_ends", [10.0, 20.0])
@@ -36,7 +36,7 @@ def test_short_motions_are_filtered_as_a_whole() -> None:
 def test_the_cutoff_rises_towards_the_ends() -> None:
     rng = np.random.default_rng(1)
     noisy = SPEED + 0.01 * rng.standard_normal(SPEED.size)
-    made = AccelerationFilter(5.0, 20.0, 0.05).derived(TIME, SEGMENT, noisy, 1, SPEED)
+    made = AccelerationFilter(5.0, 20.0, 0.05).derived(Derivable(TIME, SEGMENT, noisy, 1, SPEED))
     error = np.abs(made - ACCELERATION)
     inside = (TIME > 0.5) & (TIME < 1.5)
     ends = (TIME > 1.85) & (TIME < 1.95)

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stribeck.recording.acceleration_filter import AccelerationFilter, filter_text
+from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable, filter_text
 from stribeck.recording.arrays import Floats, Ints
-from stribeck.recording.assembly.accelerated import Derivable, accelerated
+from stribeck.recording.assembly.accelerated import accelerated
 from stribeck.recording.assembly.complete import Clock, Motion, complete
 from stribeck.recording.derive import Smoother, choose_cutoff
 from stribeck.recording.joint.channels import Channels, Layout
@@ -18,10 +18,7 @@ from stribeck.recording.mend.late_velocity import Moved, late, note, torque_foll
 from stribeck.recording.mend.load_of_motion import differing, slow_motion
 from stribeck.recording.mend.load_of_motion import note as load_note
 from stribeck.recording.mend.load_of_motion import torque_follows as follows_motion
-from stribeck.recording.motion.derived_motion import (
-    filtered_noise,
-    slope,
-)
+from stribeck.recording.motion.derived_motion import acceleration_cutoff, filtered_noise, slope
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.rows import (
     SIGMAS,
@@ -97,10 +94,10 @@ def _motion(
     derived: Smoother | None = None
     filtered: AccelerationFilter | None = None
     if acceleration is None:
-        known = Derivable(
-            source, derivative, velocity, velocity_smooth, cutoff, float(sigma or 0.0)
-        )
-        filtered, acceleration = accelerated(data, layout, segment, typical, known)
+        usual = acceleration_cutoff(time, velocity, segment, typical, cutoff)
+        known = Derivable(time, segment, source, derivative, velocity_smooth)
+        noise = float(sigma or 0.0)
+        filtered, acceleration = accelerated(data, layout, known, velocity, noise, usual)
         derived = Smoother(time, segment, filtered.cutoff)
         acceleration_smooth = acceleration
     else:

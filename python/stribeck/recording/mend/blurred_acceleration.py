@@ -8,33 +8,33 @@ the cut-off nor the jumps can be told from the motion alone; what the motor had 
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
-from stribeck.recording.acceleration_filter import AccelerationFilter
-from stribeck.recording.arrays import Bools, Floats, Ints
-from stribeck.recording.joint.channels import Channels
-from stribeck.recording.mend.torque_left import REACH, left_of, shifted, torque_of
+from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable
+from stribeck.recording.arrays import Bools, Floats
+from stribeck.recording.derive import Smoother
+from stribeck.recording.mend.torque_left import REACH, left_of, shifted
 from stribeck.recording.motion.any_friction import AnyFriction
+from stribeck.recording.rows import noise_level
 
 __all__ = ["followed_filter"]
 
-#: Cut-offs that are tried, as shares of the usual one. Lower ones remove motion, which the torque
-#: of a joint with an elastic drive train does not follow either.
+#: Cut-offs that are tried, as shares of the usual one.
 _SHARES = (1.0, 0.7, 0.5)
 #: Least relative fall of the RMS that is left, as recorded and at the best shift of the torque.
 _LEAST = 0.05
+#: Largest variance that a lower cut-off removes, in variances of the noise: half of it is motion,
+#: which the torque of an elastic drive train does not follow either.
+_REMOVED = 2.0
 #: Most samples looked at.
 _ROWS = 20_000
 
 
 def followed_filter(
-    data: Channels,
-    segment: Ints,
+    known: Derivable,
+    torque: Floats,
     usual: AccelerationFilter,
     still: float,
-    derived: Callable[[AccelerationFilter], Floats],
     friction: AnyFriction,
     moving: Bools,
 ) -> AccelerationFilter:
@@ -45,24 +45,24 @@ def followed_filter(
 
     Parameters
     ----------
+    torque
+        As recorded, in any unit, [n].
     usual
         The filter that follows from the motion.
     still
         Speed below which the joint rests.
-    derived
-        The acceleration behind a filter, [n].
     """
-    torque, rows = torque_of(data), np.flatnonzero(moving)
-    if usual.cutoff is None or torque is None or rows.size < 2:
+    rows = np.flatnonzero(moving)
+    if usual.cutoff is None or rows.size < 2:
         return usual
     rows = rows[:: -(-rows.size // _ROWS)]
-    targets = shifted(torque, segment, rows)
+    targets = shifted(torque, known.segment, rows)
 
     def left(candidate: AccelerationFilter) -> Floats:
-        return left_of(targets, friction.columns(derived(candidate)), rows)
+        return left_of(targets, friction.columns(candidate.derived(known)), rows)
 
     by_usual, best, least = left(usual), usual, (1.0 - _LEAST) ** 2
-    for candidate in _candidates(usual.cutoff, still):
+    for candidate in _candidates(known, usual.cutoff, still, moving):
         by_it = left(candidate)
         ratio = max(_ratio(by_it[REACH], by_usual[REACH]), _ratio(by_it.min(), by_usual.min()))
         if ratio < least:
@@ -70,10 +70,37 @@ def followed_filter(
     return best
 
 
-def _candidates(usual: float, still: float) -> list[AccelerationFilter]:
-    lower = [share * usual for share in _SHARES]
-    over_all = [AccelerationFilter(cutoff) for cutoff in lower[1:]]
-    return [*over_all, *(AccelerationFilter(cutoff, usual, still) for cutoff in lower)]
+def _candidates(
+    known: Derivable, usual: float, still: float, moving: Bools
+) -> list[AccelerationFilter]:
+    """Lower cut-offs that remove noise, and these and the usual one over each motion by itself."""
+    shares = [share for share in _SHARES if _removes_noise(known, usual, share, still, moving)]
+    over_all = [AccelerationFilter(share * usual) for share in shares if share < 1.0]
+    return [*over_all, *(AccelerationFilter(share * usual, usual, still) for share in shares)]
+
+
+def _removes_noise(
+    known: Derivable, usual: float, share: float, still: float, moving: Bools
+) -> bool:
+    """Whether at least half of what a lower cut-off removes is noise, away from jumps.
+
+    White noise of density ``2 noise^2 period`` times ``(2 pi f)^(2 derivative)`` between both
+    cut-offs.
+    """
+    if share == 1.0:
+        return True
+    time, segment, lower = known.time, known.segment, share * usual
+    high, low = (
+        Smoother(time, segment, cutoff).smooth(known.source, known.derivative)
+        for cutoff in (usual, lower)
+    )
+    away = moving & (known.motions(still).to_end() > 1.0 / lower)
+    if not away.any():
+        return False
+    power = 2 * known.derivative + 1
+    density = 2.0 * noise_level(time, known.source, segment) ** 2 * float(np.median(np.diff(time)))
+    noise = density * (2.0 * np.pi) ** (power - 1) * (usual**power - lower**power) / power
+    return float(np.mean((high - low)[away] ** 2)) <= _REMOVED * noise
 
 
 def _ratio(square: float, of: float) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stribeck.recording.acceleration_filter import AccelerationFilter
+from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable
 from stribeck.recording.derive import Smoother
 from stribeck.recording.joint.channels import Channels
 
@@ -64,7 +64,7 @@ class MotionChannels:
             acceleration_smooth = smoother.smooth(acceleration)
         else:
             acceleration = accelerated.derived(
-                smoother.time, smoother.segment, source, derivative, velocity_smooth
+                Derivable(smoother.time, smoother.segment, source, derivative, velocity_smooth)
             )
             acceleration_smooth = acceleration
         return cls(

@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable
 from synthetic import joint, record, sticking
 
 #: Noise of the torque in N m.
@@ -45,10 +46,9 @@ def test_the_acceleration_is_the_true_one(stopping: sb.Recording) -> None:
     truth, moving = sticking()[3], stopping.moving
     chosen = stopping.acceleration_filter
     assert chosen is not None
-    whole = type(chosen)(chosen.at_ends)
-    usual = whole.derived(
-        stopping.time, stopping.segment, stopping.velocity, 1, stopping.velocity_smooth
-    )
+    whole = AccelerationFilter(chosen.at_ends)
+    r = stopping
+    usual = whole.derived(Derivable(r.time, r.segment, r.velocity, 1, r.velocity_smooth))
     wrong, usually = (
         float(np.sqrt(np.mean((a - truth)[moving] ** 2))) for a in (stopping.acceleration, usual)
     )
