@@ -233,6 +233,9 @@ class Effect:
         By how many samples it delays friction. A late channel looks like a few samples, so that the
         effect must then predict better than all causes in the measurement; below one sample it is
         never certain.
+    beyond_band
+        Why it acts above the frequencies at which the motion is known, as a clause; it is then as
+        likely as not. None where it does not.
     out_of_reach
         Why it acts beyond what the recording reaches, as a clause: a time constant longer than a
         move, a speed above the highest; None where it does not.
@@ -280,6 +283,7 @@ class Effect:
     forms: Callable[[Recording], int] = _one_form
     unresolved: Callable[[Identified], str | None] = _nothing
     samples_late: Callable[[Identified], float] = _many
+    beyond_band: Callable[[Identified], str | None] = _nothing
     out_of_reach: Callable[[Identified], str | None] = _nothing
     absorbed: Callable[[Model, Recording], Obstacle | None] = _nothing
     alike: Callable[[Identified, Identified], tuple[str, ...]] = _no_names

@@ -19,7 +19,7 @@ from stribeck.effect.base import (
 )
 from stribeck.effect.facts import RecordingFacts
 from stribeck.effect.hardening import LARGE, detailed_resonance
-from stribeck.effect.resonance import DAMPINGS, NONE, resonances
+from stribeck.effect.resonance import NONE, resonances
 from stribeck.models.model import Model
 from stribeck.models.parameter import joint_unit
 from stribeck.recording.derive import Smoother
@@ -35,6 +35,8 @@ SOFT_DRIVE = 5.0
 TWIST_SHARE, TWIST_NOISE = 1e-3, 0.02
 #: A resonance of fewer samples a period may be what differences between samples lack.
 FEWEST_RESOLVED = 6.0
+#: Share of the cut-off of a derived acceleration up to which that is known.
+KNOWN = 0.75
 #: Periods of other resonances that the form of one includes, as multiples.
 NEAR = (0.8, 1.25)
 
@@ -90,21 +92,25 @@ def _refusal(model: Model, recording: Recording) -> str | None:
 
 
 def _where(before: Identified, after: Identified) -> str:
+    doubt = _beyond_band(after)
+    return f"{_shape_of(after)}{'' if doubt is None else f'; {doubt}'}"
+
+
+def _shape_of(after: Identified) -> str:
     share, resonance = after.model.value("elasticity"), _resonance(after)
     if resonance.period > 0.0:
         carried = -share * (2.0 * np.pi / resonance.period) ** 2
         return (
             f"the residual oscillates as if {number(100.0 * carried, 2)} % of the load torque"
             f"{_beyond_motor(after, resonance)} drove an inertia on a drive train that resonates "
-            f"at {number(1.0 / resonance.period)} Hz with "
+            f"at {number(_frequency(after))} Hz with "
             f"{number(100.0 * resonance.damping, 2)} % of critical damping"
             f"{_hardening(after, resonance)}"
         )
     side = "motor" if share > 0 else "joint"
-    hertz = 1.0 / (2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny)))
     return (
         f"the residual follows the second derivative of the load torque, as if the inertia of the "
-        f"{side} oscillated on the drive train at {number(float(hertz))} Hz{_smoothed(share)}"
+        f"{side} oscillated on the drive train at {number(_frequency(after))} Hz{_smoothed(share)}"
     )
 
 
@@ -148,42 +154,40 @@ def _smoothed(share: float) -> str:
 
 
 def _unresolved(after: Identified) -> str | None:
-    """Whether a load torque from samples, or behind a low-pass, looks the same.
+    """Differences between samples smooth: taken twice, they lack dt^2/3 of the second derivative.
 
     A drive train that twists under the inertia of the motor has the other sign.
     """
-    share, resonance = after.model.value("elasticity"), _resonance(after)
-    said = _from_samples(after, share, resonance)
-    if said is None and resonance.damping >= max(DAMPINGS) and resonance.period > 0.0:
-        return _behind_a_low_pass(after.recording, 1.0 / resonance.period)
-    return said
-
-
-def _from_samples(after: Identified, share: float, resonance: Resonance) -> str | None:
-    """Differences between samples, taken twice, lack dt^2/3 of the second derivative."""
-    period = after.recording.scales()["sample_period"]
-    if resonance.period > FEWEST_RESOLVED * period or not -(period**2) <= share < 0.0:
+    share, period = after.model.value("elasticity"), after.recording.scales()["sample_period"]
+    if _resonance(after).period > FEWEST_RESOLVED * period:
         return None
-    hertz = 1.0 / (2.0 * np.pi * np.sqrt(-share))
+    if not -(period**2) <= share < 0.0:
+        return None
     return (
-        f"the drive train would oscillate at {number(float(hertz))} Hz, and a load torque from "
-        f"differences between samples is off by as much"
+        f"the drive train would oscillate at {number(_frequency(after))} Hz, and a load torque "
+        f"from differences between samples is off by as much"
     )
 
 
-def _behind_a_low_pass(recording: Recording, hertz: float) -> str | None:
-    """A load torque behind a low-pass lacks what a drive train adds that hardly rings.
+def _frequency(after: Identified) -> float:
+    """At which the drive train oscillates, Hz."""
+    period, share = _resonance(after).period, after.model.value("elasticity")
+    own = 2.0 * np.pi * np.sqrt(max(abs(share), np.finfo(float).tiny))
+    return float(1.0 / (period if period > 0.0 else own))
+
+
+def _beyond_band(after: Identified) -> str | None:
+    """A load torque behind a low-pass lacks what a drive train adds near its resonance.
 
     The motion tells them apart below the low-pass of its own acceleration.
     """
-    derived = recording.columns["acceleration"].derived
-    highest = cutoff_of(recording) if derived else None
-    if highest is None or hertz < highest:
+    r = after.recording
+    highest = cutoff_of(r) if r.columns["acceleration"].derived else None
+    if highest is None or _frequency(after) < KNOWN * highest:
         return None
     return (
-        f"the drive train would oscillate at {number(hertz)} Hz without ringing, above the "
-        f"low-pass of the acceleration at {number(highest)} Hz: a load torque behind a low-pass "
-        f"looks the same"
+        f"the acceleration is known up to {number(highest)} Hz, and a load torque behind a "
+        f"low-pass near that does the same"
     )
 
 
@@ -216,6 +220,7 @@ EFFECT = Effect(
     flexible_shape=_flexible_shape,
     forms=_forms,
     unresolved=_unresolved,
+    beyond_band=_beyond_band,
     design_note=(
         "a motion at one end of the drive train shows its twist only where the load torque changes "
         "fast: record the positions at motor and joint as well"

@@ -8,6 +8,7 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from scipy.signal import butter, sosfiltfilt
 from stribeck.effect.registry import of_catalog
 from synthetic import Array, joint, record
 
@@ -82,6 +83,20 @@ def test_differences_are_no_elasticity(tmp_path: Path) -> None:
     assert share == pytest.approx(-1.0 / (3.0 * RATE**2), rel=0.3)
     said = of_catalog("elasticity").unresolved(fitted)
     assert said is not None and "differences between samples" in said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("order", "hertz"), [(1, 12.0), (2, 10.0)])
+def test_a_low_pass_of_the_load_torque_is_as_likely_as_elasticity(
+    tmp_path: Path, order: int, hertz: float
+) -> None:
+    """The acceleration of the motion is known up to 13.5 Hz only."""
+    filtered = sosfiltfilt(butter(order, hertz, fs=RATE, output="sos"), INERTIA * moves()[2])
+    frame = idle_joint(5e-3).with_columns(load_torque=filtered)
+    found = sb.improve("coulomb", record(tmp_path, frame, trust=True))
+    (finding,) = [step.finding for step in found.steps if step.finding.effect == "elasticity"]
+    assert finding.confidence <= 0.5
+    assert "a load torque behind a low-pass near that does the same" in finding.where
 
 
 def test_backlash_is_tied_with_elasticity_without_a_known_load(tmp_path: Path) -> None:

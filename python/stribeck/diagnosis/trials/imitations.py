@@ -223,9 +223,10 @@ def _most_certain(trial: Trial, rivals: _Rivals) -> float:
 
     Together they smooth the load torque as it does, so that what it adds to them says nothing.
     Where they predict better it is as likely as not, where they predict as well it is not certain.
+    One above the frequencies at which the motion is known is as likely as not too.
     """
     better = rivals.advantage(trial)
-    if better < -TIE:
+    if better < -TIE or trial.is_beyond_band:
         return DEMOTED
     return NARROW if better <= SIMPLEST else 1.0
 

@@ -97,6 +97,12 @@ class Trial:
         """Whether the effect delays friction by less than a sample."""
         return self.samples_late < 1.0
 
+    @property
+    def is_beyond_band(self) -> bool:
+        """Whether the effect acts above the frequencies at which the motion is known."""
+        known = find(self.effect)
+        return known is not None and known.beyond_band(self.fit) is not None
+
     def only_delays(self, effect: str) -> bool:
         """Whether it is another effect that lags by a few samples."""
         return self.samples_late <= REACH and simpler_effect(self.effect) == effect
