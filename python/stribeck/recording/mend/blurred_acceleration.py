@@ -26,8 +26,8 @@ _LEAST = 0.05
 #: Largest variance that a lower cut-off removes, in variances of the noise: half of it is motion,
 #: which the torque of an elastic drive train does not follow either.
 _REMOVED = 2.0
-#: Most samples looked at.
-_ROWS = 20_000
+#: Fewest samples for each column of the model, and most samples looked at.
+_FEWEST, _ROWS = 10, 20_000
 
 
 def followed_filter(
@@ -53,7 +53,7 @@ def followed_filter(
         Speed below which the joint rests.
     """
     rows = np.flatnonzero(moving)
-    if usual.cutoff is None or rows.size < 2:
+    if usual.cutoff is None or rows.size < _FEWEST * len(friction.columns(None)):
         return usual
     rows = rows[:: -(-rows.size // _ROWS)]
     targets = shifted(torque, known.segment, rows)

@@ -8,7 +8,10 @@ import numpy as np
 import polars as pl
 import pytest
 import stribeck as sb
+from numpy.typing import NDArray
 from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable
+from stribeck.recording.mend.blurred_acceleration import followed_filter
+from stribeck.recording.motion.any_friction import AnyFriction
 from synthetic import joint, record, sticking
 
 #: Noise of the torque in N m.
@@ -59,6 +62,21 @@ def test_nothing_is_missing(stopping: sb.Recording) -> None:
     """A delay, which the blurred acceleration imitates, is not named."""
     found = sb.improve("coulomb", stopping)
     assert [step.finding.effect for step in found.steps] == []
+
+
+def test_few_samples_keep_the_usual_filter(stopping: sb.Recording) -> None:
+    """A flexible model explains any torque of so few."""
+    r, chosen = stopping, stopping.acceleration_filter
+    assert chosen is not None
+    known = Derivable(r.time, r.segment, r.velocity, 1, r.velocity_smooth)
+    friction = AnyFriction(r.velocity, float(np.abs(r.velocity).max()), True, r.position)
+    usual = AccelerationFilter(chosen.at_ends)
+
+    def followed(moving: NDArray[np.bool_]) -> AccelerationFilter:
+        return followed_filter(known, r.torque, usual, chosen.still, friction, moving)
+
+    assert followed(r.moving) == chosen
+    assert followed(r.moving & (np.cumsum(r.moving) <= 20)) == usual
 
 
 def test_a_motion_that_never_stops_is_filtered_as_a_whole(tmp_path: Path) -> None:
