@@ -111,7 +111,7 @@ class Rival:
 def test_what_acts_in_the_joint_predicts_better_than_its_imitations(
     effect: str, better: float, stands: bool, most: float | None
 ) -> None:
-    trial = cast("Trial", SimpleNamespace(effect=effect))
+    trial = cast("Trial", SimpleNamespace(effect=effect, is_beyond_band=False))
     sift = imitations._other_judged(Sifted((trial,)), trial, cast("Any", Rival(better)), 1, 0.01)
     assert (trial in sift.stand) is stands
     assert len(sift.demoted) == (0.0 < better < 1.0 and not stands)
@@ -133,7 +133,7 @@ def test_what_acts_in_the_joint_predicts_better_than_its_imitations(
 def test_what_a_load_torque_of_another_acceleration_mostly_explains_is_in_doubt(
     effect: str, share: float, stands: bool
 ) -> None:
-    trial = cast("Trial", SimpleNamespace(effect=effect))
+    trial = cast("Trial", SimpleNamespace(effect=effect, is_beyond_band=False))
     rival = cast("Any", Rival(3.0, share))
     sift = imitations._other_judged(Sifted((trial,)), trial, rival, 1, 0.01)
     assert (trial in sift.stand) is stands
@@ -146,5 +146,8 @@ def test_what_a_load_torque_of_another_acceleration_mostly_explains_is_in_doubt(
 def test_a_drive_train_is_no_surer_than_all_causes_together_leave_it(
     better: float, most: float
 ) -> None:
-    trial = cast("Trial", SimpleNamespace(effect="elasticity"))
-    assert imitations._most_certain(trial, cast("Any", Rival(better))) == most
+    trial = SimpleNamespace(effect="elasticity", is_beyond_band=False)
+    rival = cast("Any", Rival(better))
+    assert imitations._most_certain(cast("Trial", trial), rival) == most
+    trial.is_beyond_band = True
+    assert imitations._most_certain(cast("Trial", trial), rival) == DEMOTED

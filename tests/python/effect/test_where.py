@@ -32,7 +32,9 @@ def with_values(spec: str, **values: float) -> Identified:
         made = made.with_effect(effect, constants.get(effect, {}))
     known = dict(zip(made.names, made.values, strict=True)) | values
     model = made.with_values([known[name] for name in made.names])  # type: ignore[arg-type]
-    return cast(Identified, SimpleNamespace(model=model))
+    recorded = {"acceleration": SimpleNamespace(derived=False)}
+    recording = SimpleNamespace(columns=recorded)
+    return cast(Identified, SimpleNamespace(model=model, recording=recording))
 
 
 CURVE = {"stribeck_height": 0.5, "stribeck_velocity": 0.2, "stribeck_exponent": 2.0}
