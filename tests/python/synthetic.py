@@ -116,3 +116,23 @@ def sticking(
         a[k] = (v[k] - v[k - 1]) / step
         q[k] = q[k - 1] + step * v[k]
     return tuple(x[::STEPS] for x in (t, q, v, a, torque))
+
+
+def sticking_joint(
+    velocity_noise: float = 0.01,
+    noise: float = 0.08,
+    *,
+    acceleration_noise: float | None = None,
+    seed: int = 2,
+) -> pl.DataFrame:
+    """A recording of `sticking`; without its acceleration if that has no noise."""
+    t, q, v, a, torque = sticking()
+    rng = np.random.default_rng(seed)
+    columns = {
+        "time": t,
+        "position": q,
+        "velocity": v + velocity_noise * rng.standard_normal(t.size),
+    }
+    if acceleration_noise is not None:
+        columns["acceleration"] = a + acceleration_noise * rng.standard_normal(t.size)
+    return pl.DataFrame({**columns, "torque": torque + noise * rng.standard_normal(t.size)})

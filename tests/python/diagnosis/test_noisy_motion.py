@@ -9,22 +9,12 @@ import polars as pl
 import stribeck as sb
 from stribeck.diagnosis.measurement.noisy_motion import NOISY_MOTION
 from stribeck.diagnosis.measurement.table import imitating
-from synthetic import joint, record, sticking
+from synthetic import joint, record, sticking_joint
 
 
 def noisy(noise: float) -> pl.DataFrame:
     """A joint that lacks nothing, whose acceleration is recorded with noise."""
-    t, q, v, a, torque = sticking()
-    rng = np.random.default_rng(4)
-    return pl.DataFrame(
-        {
-            "time": t,
-            "position": q,
-            "velocity": v + 1e-3 * rng.standard_normal(t.size),
-            "acceleration": a + noise * rng.standard_normal(t.size),
-            "torque": torque + 0.05 * rng.standard_normal(t.size),
-        }
-    )
+    return sticking_joint(1e-3, 0.05, acceleration_noise=noise, seed=4)
 
 
 def test_the_mean_of_two_samples_is_no_delay(tmp_path: Path) -> None:

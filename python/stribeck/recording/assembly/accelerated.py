@@ -34,7 +34,9 @@ def accelerated(
         The cut-off that follows from the motion, Hz; None: no filter.
     """
     chosen, speed, torque = AccelerationFilter(usual), np.abs(velocity), torque_of(data)
-    if torque is not None:
+    if torque is None:
+        acceleration = chosen.derived(known)
+    else:
         friction = AnyFriction(
             velocity,
             float(speed.max()),
@@ -42,8 +44,7 @@ def accelerated(
             *(data.values.get(name) for name in ("position", "temperature", "load_torque")),
         )
         moving = speed > SIGMAS * noise
-        chosen = followed_filter(known, torque, chosen, noise, friction, moving)
-    acceleration = chosen.derived(known)
+        chosen, acceleration = followed_filter(known, torque, chosen, noise, friction, moving)
     origin = {1: "velocity", 2: "position"}[known.derivative]
     unit = f"{layout.position_unit}/s2"
     data.columns["acceleration"] = Column.of("acceleration", origin, unit, True, acceleration)

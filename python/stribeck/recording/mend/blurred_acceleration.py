@@ -12,15 +12,15 @@ import numpy as np
 
 from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable
 from stribeck.recording.arrays import Bools, Floats
-from stribeck.recording.derive import Smoother
 from stribeck.recording.mend.torque_left import REACH, left_of, shifted
 from stribeck.recording.motion.any_friction import AnyFriction
+from stribeck.recording.motion.derived_motion import filtered_noise
 from stribeck.recording.rows import noise_level
 
 __all__ = ["followed_filter"]
 
-#: Cut-offs that are tried, as shares of the usual one.
-_SHARES = (1.0, 0.7, 0.5)
+#: Lower cut-offs that are tried, as shares of the usual one.
+_LOWER = (0.7, 0.5)
 #: Least relative fall of the RMS that is left, as recorded and at the best shift of the torque.
 _LEAST = 0.05
 #: Largest variance that a lower cut-off removes, in variances of the noise: half of it is motion,
@@ -37,8 +37,8 @@ def followed_filter(
     still: float,
     friction: AnyFriction,
     moving: Bools,
-) -> AccelerationFilter:
-    """The filter of the acceleration that the torque follows clearly best; the usual one otherwise.
+) -> tuple[AccelerationFilter, Floats]:
+    """The filter that the torque follows clearly best, or the usual one; its acceleration [n].
 
     By least squares of a flexible friction model, the rigid body and the load over the samples that
     move, so that no friction decides.
@@ -52,55 +52,50 @@ def followed_filter(
     still
         Speed below which the joint rests.
     """
+    best, least = (usual, usual.derived(known)), (1.0 - _LEAST) ** 2
     rows = np.flatnonzero(moving)
     if usual.cutoff is None or rows.size < _FEWEST * len(friction.columns(None)):
-        return usual
+        return best
     rows = rows[:: -(-rows.size // _ROWS)]
     targets = shifted(torque, known.segment, rows)
-
-    def left(candidate: AccelerationFilter) -> Floats:
-        return left_of(targets, friction.columns(candidate.derived(known)), rows)
-
-    by_usual, best, least = left(usual), usual, (1.0 - _LEAST) ** 2
-    for candidate in _candidates(known, usual.cutoff, still, moving):
-        by_it = left(candidate)
+    by_usual = left_of(targets, friction.columns(best[1]), rows)
+    for candidate in _candidates(known, usual.cutoff, best[1], still, moving):
+        acceleration = candidate.derived(known)
+        by_it = left_of(targets, friction.columns(acceleration), rows)
         ratio = max(_ratio(by_it[REACH], by_usual[REACH]), _ratio(by_it.min(), by_usual.min()))
         if ratio < least:
-            best, least = candidate, ratio
+            best, least = (candidate, acceleration), ratio
     return best
 
 
 def _candidates(
-    known: Derivable, usual: float, still: float, moving: Bools
+    known: Derivable, usual: float, by_usual: Floats, still: float, moving: Bools
 ) -> list[AccelerationFilter]:
-    """Lower cut-offs that remove noise, and these and the usual one over each motion by itself."""
-    shares = [share for share in _SHARES if _removes_noise(known, usual, share, still, moving)]
-    over_all = [AccelerationFilter(share * usual) for share in shares if share < 1.0]
-    return [*over_all, *(AccelerationFilter(share * usual, usual, still) for share in shares)]
+    """Lower cut-offs that remove noise, and these and the usual one over each motion by itself.
 
-
-def _removes_noise(
-    known: Derivable, usual: float, share: float, still: float, moving: Bools
-) -> bool:
-    """Whether at least half of what a lower cut-off removes is noise, away from jumps.
-
-    White noise of density ``2 noise^2 period`` times ``(2 pi f)^(2 derivative)`` between both
-    cut-offs.
+    Parameters
+    ----------
+    by_usual
+        The acceleration behind the usual filter, [n].
     """
-    if share == 1.0:
-        return True
-    time, segment, lower = known.time, known.segment, share * usual
-    high, low = (
-        Smoother(time, segment, cutoff).smooth(known.source, known.derivative)
-        for cutoff in (usual, lower)
-    )
-    away = moving & (known.motions(still).to_end() > 1.0 / lower)
-    if not away.any():
-        return False
-    power = 2 * known.derivative + 1
-    density = 2.0 * noise_level(time, known.source, segment) ** 2 * float(np.median(np.diff(time)))
-    noise = density * (2.0 * np.pi) ** (power - 1) * (usual**power - lower**power) / power
-    return float(np.mean((high - low)[away] ** 2)) <= _REMOVED * noise
+    noise = noise_level(known.time, known.source, known.segment)
+    to_end = known.motions(still).to_end()
+    lower = []
+    for cutoff in (share * usual for share in _LOWER):
+        removed = by_usual - AccelerationFilter(cutoff).derived(known)
+        # Beside the end of a motion a jump is removed.
+        away = removed[moving & (to_end > 1.0 / cutoff)]
+        if away.size and np.mean(away**2) <= _REMOVED * _between(known, noise, cutoff, usual):
+            lower.append(cutoff)
+    by_motion = (AccelerationFilter(cutoff, usual, still) for cutoff in (usual, *lower))
+    return [*(AccelerationFilter(cutoff) for cutoff in lower), *by_motion]
+
+
+def _between(known: Derivable, noise: float, low: float, high: float) -> float:
+    """Variance of the noise of the acceleration between two cut-offs."""
+    period = float(np.median(np.diff(known.time)))
+    upper, lower = (filtered_noise(noise, period, c, known.derivative) or 0.0 for c in (high, low))
+    return upper**2 - lower**2
 
 
 def _ratio(square: float, of: float) -> float:

@@ -32,11 +32,13 @@ def slope(time: Floats, value: Floats, segment: Ints) -> tuple[Floats, float | N
     return Smoother(time, segment, cutoff).smooth(value, 1), cutoff
 
 
-def filtered_noise(noise: float, period: float, cutoff: float | None) -> float | None:
-    """Standard deviation of white noise after a derivative by time and a low-pass; None: no filter.
+def filtered_noise(
+    noise: float, period: float, cutoff: float | None, derivative: int = 1
+) -> float | None:
+    """Standard deviation of white noise after derivatives by time and a low-pass; None: no filter.
 
-    The spectral density of the noise, ``2 noise^2 period``, times ``(2 pi f)^2``, up to the
-    cut-off.
+    The spectral density of the noise, ``2 noise^2 period``, times ``(2 pi f)^(2 derivative)``, up
+    to the cut-off.
 
     Parameters
     ----------
@@ -47,7 +49,9 @@ def filtered_noise(noise: float, period: float, cutoff: float | None) -> float |
     """
     if cutoff is None:
         return None
-    return 2.0 * math.pi * noise * math.sqrt(2.0 * period * cutoff**3 / 3.0)
+    power = 2 * derivative + 1
+    in_band = math.sqrt(2.0 * period * cutoff**power / power)
+    return (2.0 * math.pi) ** derivative * noise * in_band
 
 
 def acceleration_cutoff(

@@ -5,36 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-import polars as pl
 import pytest
 import stribeck as sb
 from numpy.typing import NDArray
 from stribeck.recording.acceleration_filter import AccelerationFilter, Derivable
 from stribeck.recording.mend.blurred_acceleration import followed_filter
 from stribeck.recording.motion.any_friction import AnyFriction
-from synthetic import joint, record, sticking
-
-#: Noise of the torque in N m.
-NOISE = 0.08
-
-
-def measured(velocity_noise: float = 0.01) -> pl.DataFrame:
-    """A recording of it without its acceleration."""
-    t, q, v, _, torque = sticking()
-    rng = np.random.default_rng(2)
-    return pl.DataFrame(
-        {
-            "time": t,
-            "position": q,
-            "velocity": v + velocity_noise * rng.standard_normal(t.size),
-            "torque": torque + NOISE * rng.standard_normal(t.size),
-        }
-    )
+from synthetic import joint, record, sticking, sticking_joint
 
 
 @pytest.fixture(scope="module")
 def stopping(tmp_path_factory: pytest.TempPathFactory) -> sb.Recording:
-    return record(tmp_path_factory.mktemp("stopping"), measured())
+    return record(tmp_path_factory.mktemp("stopping"), sticking_joint())
 
 
 def test_each_motion_is_filtered_by_itself(stopping: sb.Recording) -> None:
@@ -73,7 +55,7 @@ def test_few_samples_keep_the_usual_filter(stopping: sb.Recording) -> None:
     usual = AccelerationFilter(chosen.at_ends)
 
     def followed(moving: NDArray[np.bool_]) -> AccelerationFilter:
-        return followed_filter(known, r.torque, usual, chosen.still, friction, moving)
+        return followed_filter(known, r.torque, usual, chosen.still, friction, moving)[0]
 
     assert followed(r.moving) == chosen
     last = np.cumsum(r.moving) > r.moving.sum() - 80

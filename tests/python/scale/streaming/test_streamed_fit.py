@@ -9,7 +9,7 @@ import polars as pl
 import pytest
 import stribeck as sb
 from scipy.signal import lfilter
-from synthetic import joint, sticking
+from synthetic import joint, sticking_joint
 
 EVERYTHING = 10**9
 
@@ -185,16 +185,7 @@ def test_a_late_velocity_is_that_of_the_position_in_every_window(tmp_path: Path)
 
 def test_each_motion_is_filtered_by_itself_in_every_window(tmp_path: Path) -> None:
     """A motion that a window cuts has its own filter where that ends, not where the window does."""
-    t, q, v, _, torque = sticking()
-    rng = np.random.default_rng(2)
-    frame = pl.DataFrame(
-        {
-            "time": t,
-            "position": q,
-            "velocity": v + 0.01 * rng.standard_normal(t.size),
-            "torque": torque + 0.08 * rng.standard_normal(t.size),
-        }
-    )
+    frame = sticking_joint()
     folder = written(tmp_path / "set", frame)
     opened = sb.stream(folder, sample_rows=EVERYTHING, window_rows=1001, joint_kind="revolute")
     streamed = opened.fit("coulomb")
