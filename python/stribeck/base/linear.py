@@ -15,7 +15,16 @@ from numpy.typing import NDArray
 from stribeck import _core
 from stribeck.base.errors import FitError
 
-__all__ = ["least_norm", "length", "null_space", "pivots", "singular", "solve", "symmetric_eigen"]
+__all__ = [
+    "least_norm",
+    "length",
+    "null_space",
+    "pivots",
+    "singular",
+    "solve",
+    "squares_left",
+    "symmetric_eigen",
+]
 
 Array = NDArray[np.float64]
 
@@ -43,6 +52,27 @@ def least_norm(matrix: Array, right: Array, unseen: float | None = None) -> Arra
     share = max(matrix.shape) * np.finfo(float).eps if unseen is None else unseen
     with _named_errors():
         return _core.least_squares(matrix, right, share)
+
+
+def squares_left(columns: Array, targets: Array) -> Array:
+    """Sums of squares [k] that columns [m, n] leave of each target [m, k] by least squares.
+
+    By their products, summed in a fixed order: for many samples and few columns.
+
+    Examples
+    --------
+    >>> line = np.array([[1.0], [2.0], [3.0]])
+    >>> squares_left(line, np.array([[2.0, 3.0], [4.0, 0.0], [6.0, -1.0]]))
+    array([ 0., 10.])
+    """
+    n = columns.shape[1]
+    size = np.sqrt(np.einsum("ij,ij->j", columns, columns))
+    both = np.hstack([columns / np.where(size > 0.0, size, 1.0), targets])
+    group = np.zeros(both.shape[0], dtype=np.uint32)
+    ((products,), _, _) = _core.normal_equations(both, np.zeros(both.shape[0]), group, 1)
+    own, rights = products[:n, :n], products[n:, :n]
+    explained = np.array([right @ least_norm(own, right) for right in rights])
+    return np.maximum(np.diag(products)[n:] - explained, 0.0)
 
 
 def singular(matrix: Array) -> tuple[Array, Array]:

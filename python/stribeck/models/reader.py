@@ -76,7 +76,15 @@ def read_model_file(path: str | os.PathLike[str]) -> ModelFile:
     target = Path(path)
     if str(path).startswith(PREFIX):
         return ModelFile(published(str(path)))
-    return parse_model_file(read_text(target, "model file", ModelFileError), target)
+    try:
+        return parse_model_file(read_text(target, "model file", ModelFileError), target)
+    except ModelFileError as error:
+        if target.suffix.casefold() == ".toml" or not target.exists():
+            raise
+        raise ModelFileError(
+            f"{error}: a model file is TOML, as `stribeck fit -o FILE` writes it; what a recording "
+            f"holds, `stribeck inspect` shows"
+        ) from None
 
 
 @door(ModelFileError)

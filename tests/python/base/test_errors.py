@@ -25,8 +25,8 @@ def test_examples(module: object) -> None:
         (option("torque_constant"), "--torque-constant"),
         (option("gear_ratio", 0), "--gear-ratio 0"),
         (option("gear_ratio", -1.5), "--gear-ratio -1.5"),
-        (option("where", "`motor speed` > 3"), "--where `motor speed` > 3"),
-        (option("derive", "torque=`i [A]`*2"), "--derive torque=`i [A]`*2"),
+        (option("where", "`motor speed` > 3"), "--where '`motor speed` > 3'"),
+        (option("derive", "torque=`i [A]`*2"), "--derive 'torque=`i [A]`*2'"),
         ("column `load_torque` of `stribeck fit`", "column `load_torque` of `stribeck fit`"),
     ],
 )

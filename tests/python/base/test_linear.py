@@ -32,6 +32,17 @@ def test_least_norm_is_that_of_lapack(shape: tuple[int, int], rank: int | None) 
     np.testing.assert_allclose(solved * size, reference * size, atol=1e-9 * np.abs(right).max())
 
 
+@pytest.mark.parametrize("rank", [None, 1, 3])
+def test_squares_left_are_those_of_lapack(rank: int | None) -> None:
+    columns = np.hstack([_matrix((3000, 12), rank), np.zeros((3000, 1))])
+    targets = np.random.default_rng(4).standard_normal((3000, 3))
+    solved = np.linalg.lstsq(columns, targets, rcond=1e-10)[0]
+    expected = np.sum((targets - columns @ solved) ** 2, axis=0)
+    np.testing.assert_allclose(linear.squares_left(columns, targets), expected, rtol=1e-9)
+    exact = linear.squares_left(columns, columns[:, :2])
+    np.testing.assert_allclose(exact, 0.0, atol=1e-12 * np.sum(columns[:, :2] ** 2))
+
+
 @pytest.mark.parametrize("shape", SHAPES)
 def test_singular_values_and_directions(shape: tuple[int, int]) -> None:
     matrix = _matrix(shape, min(shape))

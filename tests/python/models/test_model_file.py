@@ -159,6 +159,18 @@ def test_no_model_file_at_all(tmp_path: Path, content: bytes) -> None:
         sb.load(tmp_path / "absent.toml")
 
 
+@pytest.mark.parametrize("content", [b"time,velocity\n0.0,1.0\n", b"PAR1\xff\xfe"])
+def test_a_recording_in_place_of_a_model_is_told_where_it_is_read(
+    tmp_path: Path, content: bytes
+) -> None:
+    path = tmp_path / "data.csv"
+    path.write_bytes(content)
+    with pytest.raises(
+        sb.ModelFileError, match=r"data\.csv.*a model file is TOML.*`stribeck inspect`"
+    ):
+        sb.load(path)
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [

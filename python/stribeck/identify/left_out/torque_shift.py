@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from stribeck.base import linear
 from stribeck.effect.columns import displacement_since_reversal
 from stribeck.identify.left_out.transients import flexible_columns, of_one_size
-from stribeck.identify.normal import NormalEquations
 from stribeck.identify.scaling import scale_values
 from stribeck.models.catalog import catalog
 from stribeck.models.model import Model
@@ -23,7 +22,7 @@ from stribeck.recording.recording import Recording
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-#: Relative fall of the error with the best shift, below which the torque is neither late nor early.
+#: Relative fall of the RMS error with the best shift, below which the torque is in time.
 LEAST = 0.1
 #: Most samples looked at.
 ROWS = 8000
@@ -85,19 +84,19 @@ def _searched(recording: Recording) -> tuple[int, bool]:
     columns, known = columns[rows], r.known_torque[rows, None]
     step = -(-reach // SHIFTS)
     shifts = step * np.arange(-(reach // step), reach // step + 1)
-    errors = _errors(columns, r.torque[rows[:, None] + shifts] - known)
+    errors = linear.squares_left(columns, r.torque[rows[:, None] + shifts] - known)
     without, best = errors[shifts == 0][0], int(shifts[np.argmin(errors)])
     near = np.arange(max(best - step + 1, -reach), min(best + step, reach + 1))
-    errors = _errors(columns, r.torque[rows[:, None] + near] - known)
+    errors = linear.squares_left(columns, r.torque[rows[:, None] + near] - known)
     best = int(near[np.argmin(errors)])
     # At the end of the range the error may fall further: what causes that is no shift.
-    if errors.min() >= (1.0 - LEAST) * without or abs(best) >= reach:
+    if errors.min() >= (1.0 - LEAST) ** 2 * without or abs(best) >= reach:
         return 0, False
     # The shift is known to half a sample, so that twice of it is known to one.
     beyond = 2 * best + int(np.sign(best))
     if abs(beyond) > reach:
         return best, False
-    (after,) = _errors(columns, r.torque[rows + beyond, None] - known)
+    (after,) = linear.squares_left(columns, r.torque[rows + beyond, None] - known)
     return best, bool(after >= without)
 
 
@@ -117,13 +116,3 @@ def _building_up(recording: Recording) -> list[Array]:
     longest = float(travel.max()) or 1.0
     sign = np.sign(recording.velocity)
     return [sign * np.exp(-travel / (share * longest)) for share in DISTANCES]
-
-
-def _errors(columns: Array, targets: Array) -> Array:
-    """RMS of what these columns [m, p] leave of each target [m, k], array [k]."""
-    p = columns.shape[1]
-    both = np.ascontiguousarray(np.column_stack([columns, targets]))
-    matrix, _ = NormalEquations.of(both, np.zeros(both.shape[0])).total()
-    own, rights = matrix[:p, :p], matrix[p:, :p]
-    explained = np.array([right @ linear.least_norm(own, right) for right in rights])
-    return np.sqrt(np.maximum(np.diag(matrix)[p:] - explained, 0.0) / both.shape[0])

@@ -15,10 +15,11 @@ from stribeck.recording.blocks.hold_out import with_hold_out
 from stribeck.recording.blocks.repeated_motion import held_out_together
 from stribeck.recording.blocks.speeds_once import held_out_in_turn
 from stribeck.recording.consistency.run import checked
-from stribeck.recording.joint.channels import Channels, Layout, require, wanted_channels
+from stribeck.recording.joint.channels import Channels, Layout, wanted_channels
 from stribeck.recording.joint.drive import with_drive
 from stribeck.recording.joint.motor_side import check_motor, load_motor, with_motor
 from stribeck.recording.joint.reference import check_reference, load_reference, with_reference
+from stribeck.recording.joint.required import require
 from stribeck.recording.joint.samples import check_size, check_time, drop_missing, in_runs
 from stribeck.recording.joint.units import natural_unit, settle_units
 from stribeck.recording.joint.unused import unused_numbers

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stribeck.base.errors import RecordingError, listed, option
+from stribeck.base.errors import RecordingError
 from stribeck.recording.arrays import Bools, Floats, Ints
 from stribeck.recording.check import Check
 from stribeck.recording.recording import Column
 from stribeck.recording.tables.prepared import Prepared, channel_values
 
-__all__ = ["MEASURED", "Channels", "Layout", "require", "wanted_channels"]
+__all__ = ["MEASURED", "Channels", "Layout", "wanted_channels"]
 
 #: What a logger reads from a joint and its drive.
 MEASURED = ("position", "velocity", "torque", "current", "friction_torque")
@@ -128,45 +128,6 @@ class Layout:
     run: Ints
     run_names: tuple[str, ...]
     rows_dropped: int
-
-
-def require(prepared: Prepared) -> None:
-    """Refuse a table that lacks what every analysis needs.
-
-    Raises
-    ------
-    RecordingError
-        No time, no motion or no torque.
-    """
-    path = prepared.source.path
-    have = prepared.choices
-    there = f"the file has {listed(prepared.table.columns)}"
-    if "time" not in have and not prepared.settings.average:
-        raise RecordingError(
-            f"{path}: there is no time column; {there}: name it with "
-            f"{option('map', 'time=COLUMN')}; for samples at a known rate, such as 1000 Hz, give "
-            f"{option('derive', 'time=row/1000')}; if each row is a steady-state point, give "
-            f"{option('average', 'row')}"
-        )
-    if "velocity" not in have and "position" not in have:
-        raise RecordingError(
-            f"{path}: there is neither a velocity nor a position column; {there}: name one with "
-            f"{option('map', 'velocity=COLUMN')} or {option('map', 'position=COLUMN')}"
-        )
-    if "torque" in have or "friction_torque" in have:
-        return
-    if "current" not in have:
-        raise RecordingError(
-            f"{path}: there is no torque column; {there}: name it with "
-            f"{option('map', 'torque=COLUMN')}, or compute one with "
-            f"{option('derive', 'torque=FORMULA')}"
-        )
-    if not prepared.settings.knows_torque_constant:
-        raise RecordingError(
-            f"{path}: there is a current ('{have['current'].source}') but no torque: give "
-            f"{option('torque_constant')} in N m/A (and {option('gear_ratio')}), or name the "
-            f"torque with {option('map', 'torque=COLUMN')}"
-        )
 
 
 def wanted_channels(prepared: Prepared) -> list[str]:

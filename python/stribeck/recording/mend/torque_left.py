@@ -36,11 +36,4 @@ def left_of(targets: Floats, columns: list[Floats], rows: Ints) -> Floats:
     targets
         See `shifted`.
     """
-    matrix = np.column_stack([column[rows] for column in columns])
-    matrix = matrix / np.maximum(np.linalg.norm(matrix, axis=0), np.finfo(float).tiny)
-    own = matrix.T @ matrix
-    left = []
-    for target in targets:
-        right = matrix.T @ target
-        left.append(float(target @ target - right @ linear.least_norm(own, right)))
-    return np.array(left)
+    return linear.squares_left(np.column_stack([column[rows] for column in columns]), targets.T)

@@ -95,7 +95,7 @@ _ALIASES: dict[str, str] = {
 }
 #: Words of a name that do not change what is measured, and those of a second or relative sensor.
 _QUALIFIERS = frozenset(
-    "act actual meas measured mot motor joint axis abs fb feedback cont continuous".split()
+    "act actual value meas measured mot motor joint axis abs fb feedback cont continuous".split()
 )
 _SECOND = frozenset("se second secondary link rel relative raw".split())
 #: Parts of a path that say that its end is a reference, or no measurement.
@@ -213,9 +213,10 @@ def parse_names(names: Sequence[str]) -> list[ParsedName]:
 def _without_qualifiers(stem: str) -> tuple[str | None, bool]:
     """A name without the words of `_QUALIFIERS` and `_SECOND`, and whether it had one of these.
 
-    None where it has none of them: ``act_pos_mot_deg`` is ``pos_deg``, and so is ``posAct_deg``.
+    None where it has none of them. ``act_pos_mot_deg`` is ``pos_deg``, and so are ``posAct_deg``
+    and ``Pos actual value [deg]``.
     """
-    words = [part for word in stem.split("_") for part in _parts(word)]
+    words = [part for word in re.split(r"[_\s]+", stem) for part in _parts(word)]
     kept = [word for word in words if word.casefold() not in _QUALIFIERS | _SECOND]
     if len(kept) == len(words) or not kept:
         return None, False

@@ -11,7 +11,7 @@ import polars as pl
 
 from stribeck.base.errors import RecordingError
 from stribeck.base.units import SI
-from stribeck.recording.joint.channels import require
+from stribeck.recording.joint.required import require
 from stribeck.recording.naming.names import CHANNELS, file_unit, wide_groups
 from stribeck.recording.recording import Column
 from stribeck.recording.rows import segment_rows

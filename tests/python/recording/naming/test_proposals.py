@@ -11,6 +11,7 @@ import pytest
 import scipy
 import stribeck as sb
 from stribeck.base.errors import RecordingError
+from stribeck.cli.flags import with_flags
 from stribeck.diagnosis.inspect import inspect, write_proposed
 from stribeck.recording.load import read
 from stribeck.recording.naming import names, proposals
@@ -38,6 +39,9 @@ def test_examples():
         ("time_cont", "time", None, None),
         ("ref_pos_deg_1", None, None, None),
         ("mos_temperature", None, None, None),
+        ("Position actual value [deg]", "position", "deg", None),
+        ("Torque Actual Value", "torque", None, None),
+        ("Target Position (deg)", "reference_position", "deg", None),
     ],
 )
 def test_words_that_do_not_change_what_is_measured(name, channel, unit, index):
@@ -72,6 +76,33 @@ def test_ur10e_robot_is_read_by_joint_and_gain(file):
         path = DATA / "ur10e_robot" / f"{file}.parquet"
         recording = read(path, joint=str(j), torque_constant=gain)
         assert recording.torque_at == "motor" and all(check.ok for check in recording.checks)
+
+
+def test_a_missing_channel_is_proposed_with_what_its_name_says(write):
+    frame = joint().select("time", "position", "velocity", "torque")
+    renamed = {
+        "time": "loop_time",
+        "position": "output_angle",
+        "velocity": "shaft speed",
+        "torque": "output_torque",
+    }
+    path = write(frame.rename(renamed))
+    maps = (
+        "time=loop_time",
+        "position=output_angle",
+        "velocity=shaft speed",
+        "torque=output_torque",
+    )
+    with pytest.raises(RecordingError) as refused:
+        read(path)
+    given = "--map time=loop_time --map position=output_angle --map 'velocity=shaft speed'"
+    said = with_flags(str(refused.value))
+    assert f"(by their names perhaps {given} --map torque=output_torque)" in said
+    assert read(path, map=maps).velocity.size == frame.height
+    # Of two that may be it, neither is proposed.
+    two = frame.rename(renamed).with_columns(pl.col("output_angle").alias("input_angle"))
+    with pytest.raises(RecordingError, match=r"perhaps `map=\[\"time=loop_time\", \"velocity"):
+        read(write(two, "two.csv"))
 
 
 def test_a_column_that_is_not_known_is_proposed(write):
