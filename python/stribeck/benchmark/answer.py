@@ -96,7 +96,7 @@ class CaseAnswer:
         for key in ("hidden", "implied", "cannot_show", "sizes", "detectable", "untestable"):
             fields[key] = tuple(fields[key])
         case = fields["case"]
-        tuples = {key: tuple(case.get(key, ())) for key in ("effects", "nuisances")}
+        tuples = {key: tuple(case.get(key, ())) for key in ("effects", "nuisances", "without")}
         fields["case"] = Case(**{**case, **tuples})
         fields["apart"] = tuple(fields.get("apart", ()))
         fields["steps"] = tuple(

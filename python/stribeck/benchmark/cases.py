@@ -68,6 +68,9 @@ AUTOREGRESSIVE = "autoregressive"
 WITH_NUISANCES = ("one", "two", "three", "none")
 MOST_NUISANCES = 3
 
+#: Channels that follow from others, and that a logger may not record.
+DERIVABLE = ("velocity", "acceleration")
+
 #: Smaller seeds are used by the tests, so that the recordings of the benchmark are independent.
 FIRST_SEED = 100_000
 
@@ -85,6 +88,8 @@ class Case:
         Whether it belongs to the subset that runs in minutes.
     nuisances
         What the bench adds, by name.
+    without
+        Channels that are not recorded.
     """
 
     group: str
@@ -96,6 +101,7 @@ class Case:
     correlation: float | None = None
     quick: bool = False
     nuisances: tuple[str, ...] = ()
+    without: tuple[str, ...] = ()
 
     @property
     def name(self) -> str:
@@ -106,13 +112,16 @@ class Case:
         if self.correlation is not None:
             parts.append(f"rho{self.correlation:g}")
         parts.append("+".join(self.nuisances))
+        parts += [f"no_{channel}" for channel in self.without]
         return "-".join([p for p in parts if p] + [str(self.seed)])
 
     def make(self) -> Sample:
         """Generate the recording and its truth."""
         limits = {self.limit: True} if self.limit else {}
         made = GENERATORS[self.generator].make(self.effects, self.seed, self.size, **limits)
-        return distorted(made, self.nuisances, self.seed) if self.nuisances else made
+        if self.nuisances:
+            made = distorted(made, self.nuisances, self.seed)
+        return replace(made, frame=made.frame.drop(self.without))
 
 
 def cases(
@@ -125,6 +134,7 @@ def cases(
     realism: int = 0,
     nuisance: str | None = None,
     sealed: bool = False,
+    without: Iterable[str] = (),
 ) -> list[Case]:
     """Return the cases to run.
 
@@ -147,11 +157,14 @@ def cases(
         One that every recording has; the others are drawn.
     sealed
         Draw from the sealed nuisances.
+    without
+        Channels that are not recorded, of `DERIVABLE`.
 
     Raises
     ------
     StribeckError
-        A generator or a nuisance is unknown, `only` matches no case, or the seed is negative.
+        A generator, a nuisance or a channel is unknown, `only` matches no case, or the seed is
+        negative.
     """
     names = tuple(generators)
     for name in names:
@@ -167,6 +180,7 @@ def cases(
     made += _coverage(seeds, first)
     made = [c for c in made if c.quick or not quick]
     made = _with_nuisances(made, realism, nuisance, SEALED if sealed else NUISANCES)
+    made = _without(made, tuple(dict.fromkeys(without)))
     return made if only is None else _named(made, only)
 
 
@@ -202,6 +216,19 @@ def _with_nuisances(
         for c in made
         if c.group in WITH_NUISANCES
     ]
+
+
+def _without(made: list[Case], channels: tuple[str, ...]) -> list[Case]:
+    """The cases without some channels; those that generate no recording are left out then."""
+    for channel in channels:
+        if channel not in DERIVABLE:
+            raise StribeckError(
+                f"{channel!r} cannot be left out{nearest(channel, DERIVABLE)}: "
+                f"give {' or '.join(DERIVABLE)}"
+            )
+    if not channels:
+        return made
+    return [replace(c, without=channels) for c in made if c.generator in GENERATORS]
 
 
 def _of_generator(generator: Generator, seeds: int, first: int) -> Iterator[Case]:

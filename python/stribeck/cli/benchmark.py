@@ -57,6 +57,12 @@ def benchmark() -> None:
     is_flag=True,
     help="Nuisances on which the diagnosis was not developed.",
 )
+@click.option(
+    "--without",
+    multiple=True,
+    metavar="CHANNEL",
+    help="velocity or acceleration: not recorded; may be repeated.",
+)
 @click.option("--quick", is_flag=True, help="One recording of most kinds; takes minutes.")
 @workers_option
 @click.option(
@@ -75,6 +81,7 @@ def diagnosis(
     realism: int,
     nuisance: str | None,
     sealed: bool,
+    without: tuple[str, ...],
     quick: bool,
     workers: int | None,
     output: str | None,
@@ -99,6 +106,7 @@ def diagnosis(
         realism=realism,
         nuisance=nuisance,
         sealed=sealed,
+        without=without,
     )
     folder = None if output is None else Path(output)
     with Progress("cases") as bar:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from stribeck.base.errors import StribeckError
@@ -85,6 +88,24 @@ def test_cases_with_nuisances_are_those_without() -> None:
     assert len({c.name for c in (*plain, *two)}) == len(plain) + len(two)
     with pytest.raises(StribeckError, match="did you mean 'load_scale'"):
         cases(1, nuisance="load_scal")
+
+
+def test_channels_that_are_not_recorded() -> None:
+    chosen = cases(1, quick=True, realism=1, without=("acceleration", "velocity"))
+    assert all(c.without == ("acceleration", "velocity") for c in chosen)
+    case = next(c for c in chosen if c.generator == "closed_loop" and c.group == "none")
+    assert case.name.endswith("-no_acceleration-no_velocity-" + str(case.seed))
+    whole = replace(case, without=()).make()
+    left_out = case.make()
+    assert left_out.frame.equals(whole.frame.drop("acceleration", "velocity"))
+    assert np.array_equal(left_out.oracle.prediction, whole.oracle.prediction)
+    stored = CaseAnswer(case).to_dict()
+    assert CaseAnswer.from_dict(json.loads(json.dumps(stored))).case == case
+    assert {c.group for c in cases(1, without=("velocity",))} == {
+        *("one", "two", "three", "none", "limited", "outside")
+    }
+    with pytest.raises(StribeckError, match="'torque' cannot be left out"):
+        cases(1, without=("torque",))
 
 
 def answered(hidden: tuple[str, ...], *steps: NamedEffect) -> CaseAnswer:
