@@ -17,6 +17,7 @@ from stribeck.diagnosis.all_samples import (
 from stribeck.diagnosis.least_fall import LEAST_FALL
 from stribeck.diagnosis.plausibility.claim import Claim
 from stribeck.diagnosis.plausibility.rules import NotClaimed, impossible
+from stribeck.diagnosis.plausibility.shape import shape_at_end
 from stribeck.diagnosis.residual.explainable import explainable
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor, noise_floor
 from stribeck.diagnosis.residual.unexplained import Unexplained, unexplained
@@ -209,11 +210,14 @@ def _pair(fitted: Fit, evidence: Tested, floor: NoiseFloor) -> Pair | None:
     """Two effects that predict only together; None where there are none.
 
     Those that pass the test alone, and may not be claimed, are no part of it: what they explain is
-    another cause.
+    another cause. One whose shape ends at a bound may lack another that changes what it depends on.
     """
-    judged = {trial.effect for trial in evidence.passing}
+    judged = {trial.effect: trial for trial in evidence.passing}
+    ends = {e for e, trial in judged.items() if shape_at_end(e, trial.fit.estimates)}
     best = best_pair(
-        fitted, {e: s for e, s in evidence.screenings.items() if effect_name(e) not in judged}
+        fitted,
+        {e: s for e, s in evidence.screenings.items() if effect_name(e) not in judged},
+        {e: s for e, s in evidence.screenings.items() if effect_name(e) in ends},
     )
     first = None if best is None else try_effect(fitted, evidence.screenings[best.first])
     if best is None or first is None:

@@ -8,7 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stribeck.diagnosis.loop.exchange import Exchange, Exchanges, exchanges, tied, ties_of
-from stribeck.diagnosis.loop.superfluous import Needed, brought_by, model_without, without_effects
+from stribeck.diagnosis.loop.superfluous import (
+    Needed,
+    brought_by,
+    model_without,
+    without_effects,
+    without_influence,
+)
 from stribeck.diagnosis.plausibility.rules import DEMOTED
 from stribeck.diagnosis.residual.noise_floor import NoiseFloor
 from stribeck.diagnosis.result import Diagnosis, Finding
@@ -21,6 +27,7 @@ from stribeck.fitting.result import Fit
 from stribeck.identify.search.effort import FROM_NEARBY
 from stribeck.models.formula_law import effect_name
 from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
 
 
 @dataclass(frozen=True)
@@ -222,10 +229,12 @@ class ImprovementPath:
     ) -> list[ImprovementStep]:
         """Steps from `before` to the model `whole`, whose values are the starts.
 
-        Those whose effect this model does not hold are left out.
+        Those whose effect this model does not hold are left out. An effect comes after those
+        without which it has no influence.
         """
         held = {*whole.effects, *whole.own_effects}
         later = [step for step in later if step.finding.effect in held]
+        later = _in_order(later, whole, before.recording)
         models = [whole]
         for step in reversed(later[1:]):
             models.append(without_effects(models[-1], brought_by(step.finding)))
@@ -235,6 +244,24 @@ class ImprovementPath:
             steps.append(made)
             before = made.after
         return steps
+
+
+def _in_order(
+    later: Sequence[ImprovementStep], whole: Model, recording: Recording
+) -> list[ImprovementStep]:
+    """The steps to the model `whole`, each after those without which it has no influence."""
+    waiting, made = list(later), []
+    while waiting:
+        for step in waiting:
+            others = [s.finding for s in waiting if s is not step]
+            model = without_effects(whole, [e for f in others for e in brought_by(f)])
+            if step.finding.effect not in without_influence(model, recording):
+                break
+        else:
+            step = waiting[0]
+        waiting.remove(step)
+        made.append(step)
+    return made
 
 
 def _superfluous(effect: str, because: str) -> str:

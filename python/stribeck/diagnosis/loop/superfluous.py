@@ -20,6 +20,7 @@ from stribeck.identify.figures import rms
 from stribeck.identify.search.effort import QUICK
 from stribeck.models.catalog import effect_ids
 from stribeck.models.model import Model
+from stribeck.recording.recording import Recording
 
 #: What a fit is without some of its effects.
 _WITHOUT: Memo[Fit, Fit | None] = Memo()
@@ -39,14 +40,18 @@ def without_effects(model: Model, effects: Sequence[str]) -> Model:
     return model
 
 
+def without_influence(model: Model, recording: Recording) -> list[str]:
+    """The effects that have no influence beside the others of a model."""
+    return [e for e in model.effects if of_catalog(e).refusal(model, recording) is not None]
+
+
 def model_without(current: Fit, finding: Finding) -> Model:
     """The model without what a finding brought, and without what has no influence then.
 
     The lag of a thermometer has none without friction that depends on temperature.
     """
-    model, recording = without_effects(current.model, brought_by(finding)), current.recording
-    idle = [e for e in model.effects if of_catalog(e).refusal(model, recording) is not None]
-    return without_effects(model, idle)
+    model = without_effects(current.model, brought_by(finding))
+    return without_effects(model, without_influence(model, current.recording))
 
 
 def fit_without(current: Fit, finding: Finding, seed: int) -> Fit | None:

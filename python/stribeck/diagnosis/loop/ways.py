@@ -9,6 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+import numpy as np
+import scipy
+
 from stribeck.diagnosis.loop.path import Dropped, ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.result import Diagnosis, Finding
@@ -105,8 +108,27 @@ def best_of(ways: Sequence[ImprovementPath], least: float, seed: int) -> Improve
 
 
 def predicts_better(model: Fit, other: Fit) -> bool:
-    """Whether the held-out error of a model is smaller by more than two standard errors."""
-    return difference(other, model).statistic > TIE
+    """Whether the held-out error of a model is smaller, by more than chance explains.
+
+    It is smaller by more than two standard errors, or in so many blocks. An error that is large in
+    one block makes the standard error as large.
+    """
+    found = difference(other, model)
+    return found.statistic > TIE or (found.total > 0.0 and _in_most_blocks(model, other))
+
+
+def _in_most_blocks(model: Fit, other: Fit) -> bool:
+    """Whether a model predicts more blocks better than chance does, as rarely as beyond `TIE`."""
+    squares = [
+        np.bincount(
+            other.recording.block[other.rows],
+            other.weighted(fitted.held_out_residual[other.rows]) ** 2,
+        )
+        for fitted in (model, other)
+    ]
+    better, worse = (int(np.sum(a < b)) for a, b in (squares, squares[::-1]))
+    chance = scipy.stats.binom.sf(better - 1, better + worse, 0.5)
+    return bool(chance < scipy.stats.norm.sf(TIE))
 
 
 def _is_better(way: ImprovementPath, than: ImprovementPath) -> bool:

@@ -45,10 +45,20 @@ class BestPair:
     fall: float
 
 
-def best_pair(before: Fit, screenings: Mapping[str, Screened]) -> BestPair | None:
-    """The two effects that predict best together, where none predicts nearly as well alone."""
-    alone = max((screening.fall for screening in screenings.values()), default=0.0)
-    pairs = [p for p in _with_dependent(before, screenings) if p.fall >= max(LEAST, RATIO * alone)]
+def best_pair(
+    before: Fit, screenings: Mapping[str, Screened], misshapen: Mapping[str, Screened]
+) -> BestPair | None:
+    """The two effects that predict best together, where none predicts nearly as well alone.
+
+    Parameters
+    ----------
+    misshapen
+        Effects whose shape ends at a bound. Alone they are something else, but not beside one that
+        changes what they depend on.
+    """
+    either = {**screenings, **misshapen}
+    alone = max((screening.fall for screening in either.values()), default=0.0)
+    pairs = [p for p in _with_dependent(before, either) if p.fall >= max(LEAST, RATIO * alone)]
     linearised = _best_linearised(before, screenings)
     pairs += [] if linearised is None else [linearised]
     return max(pairs, key=lambda pair: pair.fall, default=None)
