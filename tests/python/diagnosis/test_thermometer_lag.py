@@ -72,6 +72,15 @@ def test_the_lag_goes_with_the_effect_of_temperature(late: ImprovementPath) -> N
     assert [gone.effect for gone in shorter.dropped] == ["temperature_dry"]
 
 
+def test_the_lag_comes_after_what_it_delays(late: ImprovementPath) -> None:
+    """The other effect of temperature, beside which it was found, is dropped."""
+    found = path_through(late.start, ("temperature_viscous", "thermometer_lag", "temperature_dry"))
+    shorter = found.without("temperature_viscous", seed=0)
+    assert [s.finding.effect for s in shorter.steps] == ["temperature_dry", "thermometer_lag"]
+    assert shorter.current.model.spec == "coulomb+temperature_dry+thermometer_lag"
+    assert shorter.steps[1].before is shorter.steps[0].after
+
+
 def test_the_lag_is_looked_for_again_after_an_exchange(late: ImprovementPath) -> None:
     found = screened(late.start, "temperature_viscous", seed=0)
     assert found is not None

@@ -11,9 +11,11 @@ import stribeck as sb
 from stribeck.benchmark.cases import cases
 from stribeck.diagnosis.diagnose import diagnose
 from stribeck.diagnosis.loop.path import ImprovementPath
-from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings
+from stribeck.diagnosis.loop.ways import FIRM, best_of, other_beginnings, predicts_better
 from stribeck.diagnosis.residual.unexplained import Unexplained
+from stribeck.diagnosis.trials.evidence import difference
 from stribeck.diagnosis.trials.imitations import NARROW
+from stribeck.diagnosis.trials.trial import TIE
 from synthetic import joint, motion, record
 
 
@@ -90,6 +92,23 @@ def test_the_way_that_predicts_better_is_taken(start: ImprovementPath) -> None:
     assert best_of([greedy, right], 2.0, 0) is greedy
     # The other way round nothing changes.
     assert best_of([right, greedy], 0.01, 0) is right
+
+
+@pytest.mark.parametrize(("worse_blocks", "better"), [(0, True), (1, True), (3, False)])
+def test_a_stretch_with_most_of_the_error_does_not_hide_what_predicts_better(
+    start: ImprovementPath, worse_blocks: int, better: bool
+) -> None:
+    """It makes the standard error of the difference as large as the difference."""
+    fitted, recording = start.start, start.start.recording
+    noise = np.random.default_rng(1).standard_normal(recording.time.size)
+    noise[recording.time < 0.01 * recording.time[-1]] *= 30.0
+    blocks = np.unique(recording.block)
+    factor = np.where(np.isin(recording.block, blocks[::-1][:worse_blocks]), 1.03, 0.97)
+    other = replace(fitted, held_out=recording.torque - noise)
+    model = replace(fitted, held_out=recording.torque - factor * noise)
+    assert difference(other, model).statistic < TIE
+    assert predicts_better(model, other) == better
+    assert not predicts_better(other, model)
 
 
 def test_of_ways_that_predict_alike_the_one_with_fewer_parameters_is_taken(
