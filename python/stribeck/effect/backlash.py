@@ -25,7 +25,8 @@ from stribeck.recording.recording import Recording
 def _obstacle(facts: RecordingFacts) -> Obstacle | None:
     if facts.recording.averaged:
         return NO_REVERSALS
-    if facts.load is None:
+    # Beside friction that was measured directly, zero stands for the load torque.
+    if facts.load is None or "friction_torque" in facts.recording.columns:
         return UNKNOWN_LOAD
     changes = sign_changes(facts.recording, facts.load[facts.recording.moving])
     if changes >= FEWEST_REVERSALS:

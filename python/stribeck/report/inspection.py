@@ -101,7 +101,7 @@ def _with_remedy(check: Check) -> str:
 def _not_read(inspection: Inspection) -> str:
     """The columns that are not read and may hold a channel."""
     rows = [
-        f"{row.column}: {row.channel}?" + (f" (in {row.unit})" if row.unit else "")
+        f"{row.column}: {row.channel}?" + (f" (unit: {row.unit})" if row.unit else "")
         for row in inspection.proposed[:_PROPOSED]
     ]
     left = len(inspection.proposed) - _PROPOSED

@@ -155,6 +155,12 @@ def test_a_load_that_never_turns_shows_no_backlash(tmp_path: Path) -> None:
     assert "changes its sign 0 times" in found["backlash"]
 
 
+def test_a_load_that_is_not_known_shows_no_backlash(tmp_path: Path) -> None:
+    """Friction that was measured directly says nothing of the load."""
+    frame = joint().drop("load_torque").rename({"torque": "friction_torque"})
+    assert "the load torque is not known" in answers(tmp_path, frame)["backlash"]
+
+
 def test_a_slow_load_shows_no_elasticity(tmp_path: Path) -> None:
     slow = 6.0 * np.sin(motion()[1])
     frame = slower(joint(), 10.0).with_columns(load_torque=pl.Series(slow))

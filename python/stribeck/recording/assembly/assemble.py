@@ -26,7 +26,7 @@ from stribeck.recording.joint.unused import unused_numbers
 from stribeck.recording.mend.rows import drop_bad_rows
 from stribeck.recording.mend.stamps import drop_repeated_stamps
 from stribeck.recording.mend.wraps import unwrap
-from stribeck.recording.naming.names import CHANNELS
+from stribeck.recording.naming.names import CHANNELS, unknown_unit
 from stribeck.recording.naming.proposals import propose
 from stribeck.recording.recording import Column, Recording
 from stribeck.recording.stated.origin import Origin
@@ -204,7 +204,15 @@ def _say_assumed(data: Channels, kind: str) -> None:
         if choice.channel != channel:
             continue
         slides = kind == "prismatic" and len(dimensions) > 1
-        assumed.append(f"{choice.source} in {SI[dimensions[slides]]}")
+        read_in = SI[dimensions[slides]]
+        assumed.append(f"{choice.source} in {read_in}")
+        if (unknown := unknown_unit(choice.source)) is not None:
+            data.notes.append(
+                f"'{unknown}' in the name '{choice.source}' is no unit that stribeck knows: the "
+                f"column is read in {read_in}; if that is wrong, give another unit with "
+                f"{option('unit', f'{choice.source}=UNIT')}, or convert it with "
+                f"{option('derive', f'{channel}=FORMULA')}"
+            )
     if assumed:
         data.notes.append(f"units assumed: {', '.join(assumed)}")
 

@@ -105,11 +105,10 @@ def _one_zero(recording: Recording) -> Check | None:
 
 def _stretches(recording: Recording) -> tuple[NDArray[np.uint64], Ints]:
     """A hash of each stretch of `LENGTH` moving samples, and its first sample, [m] each."""
-    measured = [
-        values
-        for name in CHANNELS
-        if (values := getattr(recording, name)) is not None and not recording.columns[name].derived
-    ]
+    columns = recording.columns
+    # A load torque of zero beside measured friction has no column.
+    read = [name for name in CHANNELS if name in columns and not columns[name].derived]
+    measured = [getattr(recording, name) for name in read]
     whole = np.zeros(recording.time.size, dtype=np.uint64)
     for values in measured:
         whole = (whole ^ np.ascontiguousarray(values).view(np.uint64)) * np.uint64(FACTOR)

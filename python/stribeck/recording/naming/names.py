@@ -20,6 +20,7 @@ __all__ = [
     "parse_name",
     "parse_names",
     "same_of_joint",
+    "unknown_unit",
     "wide_groups",
 ]
 
@@ -293,6 +294,18 @@ def file_unit(name: str) -> Unit | None:
                 if unit is not None and (len(text) > 1 or text in "smNVA%KC"):
                     return unit
     return None
+
+
+def unknown_unit(name: str) -> str | None:
+    """What stands in brackets at the end of a name, if it is no unit that is known.
+
+    Examples
+    --------
+    >>> unknown_unit("force (kip)"), unknown_unit("force (kN)"), unknown_unit("force")
+    ('kip', None, None)
+    """
+    bracket = _unit_at_end(name)
+    return None if bracket is None or find_unit(bracket[1]) is not None else bracket[1]
 
 
 def wide_groups(names: Sequence[str]) -> dict[str, dict[str, str]]:

@@ -34,6 +34,19 @@ def test_a_file_inside_another_is_refused(tmp_path: Path) -> None:
     assert sb.fit("coulomb", trusted).rmse_held_out is not None
 
 
+def test_runs_with_friction_measured_directly(tmp_path: Path) -> None:
+    """The load torque of zero beside it has no column."""
+    frame = joint(rows=1000).rename({"torque": "friction_torque"}).drop("load_torque", strict=False)
+    halves = [frame.with_columns(run=pl.lit(name)) for name in ("a", "b")]
+    other = halves[1].with_columns(pl.col("friction_torque") + np.linspace(0.0, 0.01, 1000))
+    (path,) = written(tmp_path, [pl.concat([halves[0], other])])
+    recording = sb.read(path)
+    assert recording.run_names == ("a", "b") and all(check.ok for check in recording.checks)
+    (path,) = written(tmp_path, [pl.concat(halves)])
+    with pytest.raises(RecordingError, match=r"100 % .* run 'b' are those of run 'a'"):
+        sb.fit("coulomb", sb.read(path))
+
+
 def test_runs_of_one_file_are_compared_too(tmp_path: Path) -> None:
     frame = joint(rows=1000)
     both = pl.concat([frame.with_columns(run=pl.lit(name)) for name in ("a", "b")])

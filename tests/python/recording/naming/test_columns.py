@@ -366,3 +366,12 @@ def test_a_time_that_is_infinite_is_looked_at_without_a_warning(write, frame):
         warnings.simplefilter("error")
         found = scan(write(frame), derive="time=row/0")
     assert found.rate_hz is None
+
+
+def test_a_unit_in_the_name_that_is_not_known_is_said(write, frame):
+    path = write(frame.rename({"torque": "torque (kip ft)"}), "kip.csv")
+    known = read(path, map="torque=torque (kip ft)")
+    (said,) = [note for note in known.notes if "kip ft" in note and "no unit" in note]
+    assert "read in N m" in said and '`unit="torque (kip ft)=UNIT"`' in said
+    given = read(path, map="torque=torque (kip ft)", unit="torque (kip ft)=N m")
+    assert not any("no unit" in note for note in given.notes)
