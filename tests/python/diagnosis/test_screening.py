@@ -112,3 +112,25 @@ def test_a_start_on_a_plateau_does_not_hide_the_minimum(tmp_path: Path) -> None:
     found = screened(before, "presliding")
     assert found is not None and found.fall > 0.05
     assert 1e3 < found.model.value("presliding_stiffness") < 1e5
+
+
+def test_a_bristle_is_found_beside_coulomb_friction_of_zero() -> None:
+    """Friction that builds up over most of the stroke looks viscous; without any dry friction a
+    bristle has no influence.
+    """
+    t = np.arange(6000) / 200.0
+    slow = 1.0 + 0.3 * np.sin(0.4 * t)
+    q = 0.01 * slow * np.sin(3.0 * t)
+    v = 0.01 * (0.12 * np.cos(0.4 * t) * np.sin(3.0 * t) + 3.0 * slow * np.cos(3.0 * t))
+    bent = np.zeros(t.size)
+    for k in range(1, t.size):
+        step = q[k] - q[k - 1]
+        bent[k] = bent[k - 1] + step - abs(step) * bent[k - 1] / 0.006
+    torque = 10.0 * bent / 0.006 + 0.05 * np.random.default_rng(2).standard_normal(t.size)
+    channels = {"position": q, "velocity": v, "torque": torque, "load_torque": 0.0 * t}
+    recording = sb.Recording.from_columns(time=t, joint_kind="prismatic", **channels)
+    before = sb.fit("coulomb", recording)
+    assert before.model.value("coulomb_friction") == 0.0
+    found = screened(before, "presliding")
+    assert found is not None and found.fall > 0.5
+    assert found.model.value("coulomb_friction") == pytest.approx(10.0, rel=0.1)

@@ -171,11 +171,13 @@ def _search(problem: Problem, lower: Array, upper: Array, first: Array, seed: in
     known = problem.model.values
     unknown = ~np.isfinite(known)
     first = with_shift(first, unknown, problem.model, problem.recording)
-    start = np.clip(np.where(unknown, first, known), lower, upper)
+    # With a bristle, a search finds the amplitudes of dry friction from any start but zero, where
+    # the bristle has no influence.
+    amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
+    idle = amplitude & (known == 0.0) & problem.model.has_state
+    start = np.clip(np.where(unknown | idle, first, known), lower, upper)
     space = SearchSpace.of(problem, lower, upper)
     nonlinear = space.nonlinear
-    # With a bristle, a search finds the amplitudes of dry friction from any start.
-    amplitude = np.array([p.role == "dry" for p in problem.model.parameters])
     varied = unknown & nonlinear & ~amplitude
     if not np.all(np.isfinite(lower[nonlinear]) & np.isfinite(upper[nonlinear])):
         varied = np.zeros_like(varied)
