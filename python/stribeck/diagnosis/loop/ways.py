@@ -15,7 +15,7 @@ import scipy
 from stribeck.diagnosis.loop.path import Dropped, ImprovementPath
 from stribeck.diagnosis.loop.provisional import judged
 from stribeck.diagnosis.result import Diagnosis, Finding
-from stribeck.diagnosis.trials.evidence import difference, held_out_square
+from stribeck.diagnosis.trials.evidence import difference, gain_by_block, held_out_square
 from stribeck.diagnosis.trials.flexible_refit import free_difference
 from stribeck.diagnosis.trials.imitations import NARROW
 from stribeck.diagnosis.trials.ranking import finding_of
@@ -119,15 +119,9 @@ def predicts_better(model: Fit, other: Fit) -> bool:
 
 def _in_most_blocks(model: Fit, other: Fit) -> bool:
     """Whether a model predicts more blocks better than chance does, as rarely as beyond `TIE`."""
-    squares = [
-        np.bincount(
-            other.recording.block[other.rows],
-            other.weighted(fitted.held_out_residual[other.rows]) ** 2,
-        )
-        for fitted in (model, other)
-    ]
-    better, worse = (int(np.sum(a < b)) for a, b in (squares, squares[::-1]))
-    chance = scipy.stats.binom.sf(better - 1, better + worse, 0.5)
+    gain = gain_by_block(other, model)
+    better = int(np.sum(gain > 0.0))
+    chance = scipy.stats.binom.sf(better - 1, np.count_nonzero(gain), 0.5)
     return bool(chance < scipy.stats.norm.sf(TIE))
 
 

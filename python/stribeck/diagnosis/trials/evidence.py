@@ -133,8 +133,18 @@ def difference(worse: Fit, better: Fit, *, everywhere: bool = False) -> Differen
     """Compare two models, nested or not, on held-out samples; `everywhere`, also at reversals."""
     whole = everywhere and worse.loss_weight is None
     rows = np.flatnonzero(worse.scored) if whole else worse.rows
-    change = (
-        worse.weighted(worse.held_out_residual[rows]) ** 2
-        - worse.weighted(better.held_out_residual[rows]) ** 2
+    return Difference.of(_gain(worse, better, rows))
+
+
+def gain_by_block(worse: Fit, better: Fit) -> Array:
+    """What a model gains on another in each held-out block, squared errors summed, [blocks]."""
+    rows = worse.rows
+    return np.asarray(
+        np.bincount(worse.recording.block[rows], _gain(worse, better, rows)), np.float64
     )
-    return Difference.of(change)
+
+
+def _gain(worse: Fit, better: Fit, rows: NDArray[np.intp]) -> Array:
+    """Difference of the squared held-out errors of two models on some samples, [m]."""
+    left, remains = (worse.weighted(f.held_out_residual[rows]) ** 2 for f in (worse, better))
+    return np.asarray(left - remains)
